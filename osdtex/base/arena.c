@@ -1,0 +1,265 @@
+/* arena.c -- chained blocks over a counting heap.
+ *
+ * Blocks are at least 64 KiB; a larger request gets a block of its own, so
+ * releasing a mark returns large temporaries to the system at once. */
+#include "base/arena.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum
+{
+    ALIGNMENT = 64,
+    BLOCK_BYTES = 65536
+};
+
+struct otx_heap
+{
+    otx_heap_hooks hooks;
+    _Atomic size_t used;
+    _Atomic size_t peak;
+};
+
+typedef struct chunk
+{
+    struct chunk *previous;
+    size_t capacity; /* payload bytes */
+    size_t used;
+} chunk;
+
+typedef struct deferred
+{
+    struct deferred *previous;
+    void (*fn)(void *);
+    void *object;
+} deferred;
+
+struct otx_arena
+{
+    otx_heap *heap;
+    chunk *last;
+    deferred *deferred;
+};
+
+otx_heap *
+otx_heap_create(const otx_heap_hooks *hooks)
+{
+    otx_heap *heap = malloc(sizeof *heap);
+
+    if (!heap)
+        return NULL;
+    heap->hooks = hooks ? *hooks : (otx_heap_hooks){0};
+    atomic_init(&heap->used, 0);
+    atomic_init(&heap->peak, 0);
+    return heap;
+}
+
+void
+otx_heap_destroy(otx_heap *heap)
+{
+    free(heap);
+}
+
+/* Counts `bytes` in, or refuses when they would pass the limit. */
+static bool
+reserve(otx_heap *heap, size_t bytes)
+{
+    const size_t limit = heap->hooks.limit_bytes;
+    const size_t used = atomic_fetch_add(&heap->used, bytes) + bytes;
+    size_t peak = atomic_load(&heap->peak);
+
+    if (used < bytes || (limit != 0 && used > limit))
+    {
+        atomic_fetch_sub(&heap->used, bytes);
+        return false;
+    }
+    while (used > peak &&
+           !atomic_compare_exchange_weak(&heap->peak, &peak, used))
+    {
+    }
+    return true;
+}
+
+void *
+otx_heap_alloc(otx_heap *heap, size_t bytes)
+{
+    void *block;
+
+    if (!reserve(heap, bytes))
+        return NULL;
+    block = heap->hooks.alloc ? heap->hooks.alloc(heap->hooks.user, bytes)
+                              : malloc(bytes);
+    if (!block)
+        atomic_fetch_sub(&heap->used, bytes);
+    return block;
+}
+
+void
+otx_heap_free(otx_heap *heap, void *block, size_t bytes)
+{
+    if (!block)
+        return;
+    if (heap->hooks.release)
+        heap->hooks.release(heap->hooks.user, block, bytes);
+    else
+        free(block);
+    atomic_fetch_sub(&heap->used, bytes);
+}
+
+size_t
+otx_heap_used(const otx_heap *heap)
+{
+    return atomic_load(&heap->used);
+}
+
+size_t
+otx_heap_peak(const otx_heap *heap)
+{
+    return atomic_load(&heap->peak);
+}
+
+otx_arena *
+otx_arena_create(otx_heap *heap)
+{
+    otx_arena *arena = otx_heap_alloc(heap, sizeof *arena);
+
+    if (arena)
+        *arena = (otx_arena){.heap = heap};
+    return arena;
+}
+
+/* First aligned byte of the payload. */
+static char *
+payload(chunk *b)
+{
+    const uintptr_t start = (uintptr_t)(b + 1);
+
+    return (char *)((start + ALIGNMENT - 1) & ~(uintptr_t)(ALIGNMENT - 1));
+}
+
+static size_t
+block_bytes(size_t capacity)
+{
+    return sizeof(chunk) + ALIGNMENT + capacity;
+}
+
+static void
+run_deferred(otx_arena *arena, const deferred *until)
+{
+    while (arena->deferred != until)
+    {
+        deferred *d = arena->deferred;
+
+        arena->deferred = d->previous;
+        d->fn(d->object);
+    }
+}
+
+static void
+drop_blocks(otx_arena *arena, const chunk *until)
+{
+    while (arena->last != until)
+    {
+        chunk *b = arena->last;
+
+        arena->last = b->previous;
+        otx_heap_free(arena->heap, b, block_bytes(b->capacity));
+    }
+}
+
+void
+otx_arena_destroy(otx_arena *arena)
+{
+    if (!arena)
+        return;
+    run_deferred(arena, NULL);
+    drop_blocks(arena, NULL);
+    otx_heap_free(arena->heap, arena, sizeof *arena);
+}
+
+static bool
+grow(otx_arena *arena, size_t bytes)
+{
+    const size_t capacity = bytes > BLOCK_BYTES ? bytes : BLOCK_BYTES;
+    chunk *b;
+
+    if (capacity > SIZE_MAX - sizeof(chunk) - ALIGNMENT)
+        return false;
+    b = otx_heap_alloc(arena->heap, block_bytes(capacity));
+    if (!b)
+        return false;
+    *b = (chunk){.previous = arena->last, .capacity = capacity};
+    arena->last = b;
+    return true;
+}
+
+void *
+otx_arena_alloc(otx_arena *arena, size_t count, size_t size)
+{
+    size_t bytes;
+    char *result;
+
+    if (size != 0 && count > (SIZE_MAX - ALIGNMENT) / size)
+        return NULL;
+    bytes = (count * size + ALIGNMENT - 1) & ~(size_t)(ALIGNMENT - 1);
+    if (bytes == 0)
+        bytes = ALIGNMENT;
+    if (!arena->last || arena->last->capacity - arena->last->used < bytes)
+    {
+        if (!grow(arena, bytes))
+            return NULL;
+    }
+    result = payload(arena->last) + arena->last->used;
+    arena->last->used += bytes;
+    return result;
+}
+
+void *
+otx_arena_zalloc(otx_arena *arena, size_t count, size_t size)
+{
+    void *result = otx_arena_alloc(arena, count, size);
+
+    if (result)
+        memset(result, 0, count * size);
+    return result;
+}
+
+char *
+otx_arena_strdup(otx_arena *arena, const char *text)
+{
+    const size_t bytes = strlen(text) + 1;
+    char *copy = otx_arena_alloc(arena, bytes, 1);
+
+    if (copy)
+        memcpy(copy, text, bytes);
+    return copy;
+}
+
+bool
+otx_arena_defer(otx_arena *arena, void (*fn)(void *), void *object)
+{
+    deferred *d = OTX_NEW(arena, deferred, 1);
+
+    if (!d)
+        return false;
+    *d = (deferred){arena->deferred, fn, object};
+    arena->deferred = d;
+    return true;
+}
+
+otx_arena_mark
+otx_arena_here(otx_arena *arena)
+{
+    return (otx_arena_mark){
+        arena->last, arena->last ? arena->last->used : 0, arena->deferred};
+}
+
+void
+otx_arena_release(otx_arena *arena, otx_arena_mark mark)
+{
+    run_deferred(arena, mark.deferred);
+    drop_blocks(arena, mark.block);
+    if (arena->last)
+        arena->last->used = mark.used;
+}

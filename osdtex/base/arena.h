@@ -1,0 +1,77 @@
+/* arena.h -- memory that is freed together.
+ *
+ * Results of a stage live in the run's arena and die with the handle that took
+ * it over; temporaries live in the run's scratch arena between a mark and its
+ * release. Foreign resources (plans, files, C++ objects) are registered with
+ * `otx_arena_defer`, so that error paths have nothing to free.
+ *
+ * An arena serves one thread; a worker of the pool has its own. */
+#ifndef OTX_BASE_ARENA_H
+#define OTX_BASE_ARENA_H
+
+#include "base/status.h"
+
+#ifdef __cplusplus
+extern "C"
+{
+#endif
+
+    /* Allocation hooks and the bytes they have handed out, shared by the arenas
+     * of a context. All of it is safe to use from several threads. */
+    typedef struct otx_heap otx_heap;
+
+    /* `alloc` returns NULL on failure; `release` gets the size back.
+     * Either may be NULL: malloc and free. `limit_bytes` 0 means no limit. */
+    typedef struct otx_heap_hooks
+    {
+        void *(*alloc)(void *user, size_t bytes);
+        void (*release)(void *user, void *block, size_t bytes);
+        void *user;
+        size_t limit_bytes;
+    } otx_heap_hooks;
+
+    otx_heap *otx_heap_create(const otx_heap_hooks *hooks);
+    void otx_heap_destroy(otx_heap *heap);
+    void *otx_heap_alloc(otx_heap *heap, size_t bytes);
+    void otx_heap_free(otx_heap *heap, void *block, size_t bytes);
+    size_t otx_heap_used(const otx_heap *heap);
+    size_t otx_heap_peak(const otx_heap *heap);
+
+    typedef struct otx_arena otx_arena;
+
+    /* A place in an arena to which it can be released again. */
+    typedef struct otx_arena_mark
+    {
+        void *block;
+        size_t used;
+        void *deferred;
+    } otx_arena_mark;
+
+    /* NULL when memory is out. Destroying NULL is fine. */
+    otx_arena *otx_arena_create(otx_heap *heap);
+    void otx_arena_destroy(otx_arena *arena);
+
+    /* `count * size` bytes aligned to 64, uninitialised; NULL when the product
+     * overflows or memory is out. A count of 0 gives a valid pointer. */
+    void *otx_arena_alloc(otx_arena *arena, size_t count, size_t size);
+    /* The same, zeroed. */
+    void *otx_arena_zalloc(otx_arena *arena, size_t count, size_t size);
+    char *otx_arena_strdup(otx_arena *arena, const char *text);
+
+#define OTX_NEW(arena, type, count)                                            \
+    ((type *)otx_arena_alloc((arena), (size_t)(count), sizeof(type)))
+#define OTX_ZNEW(arena, type, count)                                           \
+    ((type *)otx_arena_zalloc((arena), (size_t)(count), sizeof(type)))
+
+    /* Calls `fn(object)` when the arena is destroyed or released past this
+     * point, last registered first. False when memory is out (the caller then
+     * cleans up itself). */
+    bool otx_arena_defer(otx_arena *arena, void (*fn)(void *), void *object);
+
+    otx_arena_mark otx_arena_here(otx_arena *arena);
+    void otx_arena_release(otx_arena *arena, otx_arena_mark mark);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,16 @@
+/* hash.h -- content hashes for reports and for "is it up to date" tests. */
+#ifndef OTX_BASE_HASH_H
+#define OTX_BASE_HASH_H
+
+#include <stddef.h>
+
+enum
+{
+    OTX_HASH_TEXT_BYTES = 33 /* 128 bits in hexadecimal, and the NUL */
+};
+
+/* XXH3-128 of `bytes` bytes as lower-case hexadecimal. */
+void
+otx_hash_text(const void *data, size_t bytes, char text[OTX_HASH_TEXT_BYTES]);
+
+#endif

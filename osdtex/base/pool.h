@@ -1,0 +1,36 @@
+/* pool.h -- a fixed set of threads that share the indices of a loop.
+ *
+ * Indices are handed out one by one, so the order of execution is not fixed:
+ * a loop body may write only to what belongs to its index. Sums over indices
+ * are made afterwards, in index order. With that rule results do not depend on
+ * the number of threads. */
+#ifndef OTX_BASE_POOL_H
+#define OTX_BASE_POOL_H
+
+#include "base/arena.h"
+
+typedef struct otx_pool otx_pool;
+
+/* One thread of the pool. Its scratch arena is released after every index. */
+typedef struct otx_worker
+{
+    int32_t index; /* [0, otx_pool_threads) */
+    otx_arena *scratch;
+} otx_worker;
+
+typedef otx_status (*otx_pool_body)(
+    void *context, int64_t index, otx_worker *worker);
+
+/* `threads` of 0 means the cores of the machine. The calling thread is one of
+ * them, so 1 starts none. NULL when memory or threads are out. */
+otx_pool *otx_pool_create(otx_heap *heap, int32_t threads);
+void otx_pool_destroy(otx_pool *pool);
+int32_t otx_pool_threads(const otx_pool *pool);
+
+/* Runs body(context, i, worker) for every i in [0, count). Waits for all.
+ * Returns the failure of the lowest failing index. Not re-entrant: a body must
+ * not call it. */
+otx_status
+otx_pool_for(otx_pool *pool, int64_t count, otx_pool_body body, void *context);
+
+#endif

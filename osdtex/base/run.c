@@ -1,0 +1,198 @@
+/* run.c -- findings and progress.
+ *
+ * Findings are kept in the order of their first occurrence. Two findings are
+ * alike when severity, stage, file and the *format string* agree: the numbers
+ * in the sentence then differ only by place, and one example with a count says
+ * more than a thousand lines. */
+#include "base/run.h"
+
+#include <pthread.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum
+{
+    MESSAGE_BYTES = 1024,
+    MAX_FINDINGS = 1000
+};
+
+typedef struct finding
+{
+    osdtex_diagnostic public;
+    const char *format;
+} finding;
+
+struct otx_diagnostics
+{
+    otx_heap *heap;
+    otx_arena *arena;
+    finding *findings;
+    int32_t count;
+    void (*listener)(void *user, const osdtex_diagnostic *finding);
+    void *listener_user;
+    pthread_mutex_t mutex;
+};
+
+otx_diagnostics *
+otx_diagnostics_create(otx_heap *heap)
+{
+    otx_diagnostics *d = otx_heap_alloc(heap, sizeof *d);
+
+    if (!d)
+        return NULL;
+    *d = (otx_diagnostics){.heap = heap};
+    d->arena = otx_arena_create(heap);
+    if (d->arena)
+        d->findings = OTX_NEW(d->arena, finding, MAX_FINDINGS);
+    pthread_mutex_init(&d->mutex, NULL);
+    if (!d->findings)
+    {
+        otx_diagnostics_destroy(d);
+        return NULL;
+    }
+    return d;
+}
+
+void
+otx_diagnostics_destroy(otx_diagnostics *d)
+{
+    if (!d)
+        return;
+    pthread_mutex_destroy(&d->mutex);
+    otx_arena_destroy(d->arena);
+    otx_heap_free(d->heap, d, sizeof *d);
+}
+
+int32_t
+otx_diagnostics_count(const otx_diagnostics *d)
+{
+    return d->count;
+}
+
+void
+otx_diagnostics_get(
+    const otx_diagnostics *d, int32_t index, osdtex_diagnostic *out)
+{
+    *out = d->findings[index].public;
+}
+
+void
+otx_diagnostics_listen(
+    otx_diagnostics *d,
+    void (*fn)(void *user, const osdtex_diagnostic *finding), void *user)
+{
+    d->listener = fn;
+    d->listener_user = user;
+}
+
+static bool
+same_file(const char *a, const char *b)
+{
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+static finding *
+find_alike(otx_diagnostics *d, const finding *f)
+{
+    for (int32_t i = 0; i < d->count; ++i)
+    {
+        finding *g = &d->findings[i];
+
+        if (g->format == f->format &&
+            g->public.severity == f->public.severity &&
+            same_file(g->public.file, f->public.file))
+            return g;
+    }
+    return NULL;
+}
+
+/* Keeps a finding; dropped without a word when memory is out or the list is
+ * full, since the status that follows is what matters then. */
+static void
+keep(otx_diagnostics *d, finding f, const char *message)
+{
+    finding *alike = find_alike(d, &f);
+
+    if (alike)
+    {
+        ++alike->public.count;
+        return;
+    }
+    if (d->count == MAX_FINDINGS)
+        return;
+    f.public.message = otx_arena_strdup(d->arena, message);
+    f.public.stage = otx_arena_strdup(d->arena, f.public.stage);
+    if (f.public.file)
+        f.public.file = otx_arena_strdup(d->arena, f.public.file);
+    if (!f.public.message || !f.public.stage)
+        return;
+    d->findings[d->count++] = f;
+    if (d->listener)
+        d->listener(d->listener_user, &d->findings[d->count - 1].public);
+}
+
+static void
+report(
+    otx_run *run, osdtex_severity severity, otx_status status,
+    const char *stage, otx_where where, const char *format, va_list arguments)
+{
+    char message[MESSAGE_BYTES];
+    const finding f = {
+        {.severity = severity,
+         .status = status,
+         .stage = stage,
+         .file = where.file,
+         .line = where.line,
+         .face = where.face,
+         .vertex = where.vertex,
+         .count = 1},
+        format};
+
+    vsnprintf(message, sizeof message, format, arguments);
+    pthread_mutex_lock(&run->diagnostics->mutex);
+    keep(run->diagnostics, f, message);
+    pthread_mutex_unlock(&run->diagnostics->mutex);
+}
+
+otx_status
+otx_fail(
+    otx_run *run, otx_status status, const char *stage, otx_where where,
+    const char *format, ...)
+{
+    va_list arguments;
+
+    va_start(arguments, format);
+    report(run, OSDTEX_SEVERITY_ERROR, status, stage, where, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+void
+otx_note(
+    otx_run *run, osdtex_severity severity, const char *stage, otx_where where,
+    const char *format, ...)
+{
+    va_list arguments;
+
+    va_start(arguments, format);
+    report(run, severity, OSDTEX_OK, stage, where, format, arguments);
+    va_end(arguments);
+}
+
+otx_status
+otx_fail_memory(otx_run *run, const char *stage)
+{
+    return otx_fail(
+        run, OSDTEX_ERROR_MEMORY, stage, OTX_NOWHERE,
+        "memory is out, or --memory-limit is reached; lower --level, or raise "
+        "the limit");
+}
+
+otx_status
+otx_progress(otx_run *run, const char *stage, double fraction)
+{
+    if (!run->progress || run->progress(run->progress_user, stage, fraction))
+        return OSDTEX_OK;
+    return OSDTEX_ERROR_CANCELLED;
+}

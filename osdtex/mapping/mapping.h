@@ -1,0 +1,22 @@
+/* mapping.h -- what every method returns: UVs for every leaf face.
+ *
+ * A face carries one fragment: its corners' UVs and the patch that they come
+ * from. UVs are in units of the exemplar's size, v up, and may leave [0, 1]
+ * only along an axis in which the exemplar tiles. */
+#ifndef OTX_MAPPING_MAPPING_H
+#define OTX_MAPPING_MAPPING_H
+
+#include "surface/surface.h"
+
+typedef struct otx_mapping
+{
+    const otx_surface *surface;
+    double scale; /* width of the exemplar in scene units */
+    float *uvs;   /* [leaf corner_count * 2] */
+    /* [leaf face_count], -1 only on holes. Numbered from 0 in the order in
+     * which the patches were fitted. */
+    int32_t *face_patch;
+    int32_t patch_count;
+} otx_mapping;
+
+#endif

@@ -1,0 +1,72 @@
+/* support.h -- what every unit test needs: cmocka and a run to pass around. */
+#ifndef OTX_TESTS_SUPPORT_H
+#define OTX_TESTS_SUPPORT_H
+
+/* cmocka.h needs these first. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "base/run.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Folder with real cages and photographs, beside the project where it is
+ * there. Tests that need it skip with a message where it is absent. */
+#define SHARED_DATA "../shared/data"
+
+/* A run with its own heap, arenas, diagnostics and pool. */
+static inline otx_run *
+test_run_create_with(const otx_heap_hooks *hooks, int32_t threads)
+{
+    otx_heap *heap = otx_heap_create(hooks);
+    otx_arena *arena = otx_arena_create(heap);
+    otx_run *run = OTX_ZNEW(arena, otx_run, 1);
+
+    run->heap = heap;
+    run->arena = arena;
+    run->scratch = otx_arena_create(heap);
+    run->pool = otx_pool_create(heap, threads);
+    run->diagnostics = otx_diagnostics_create(heap);
+    run->seed = 1;
+    return run;
+}
+
+static inline otx_run *
+test_run_create(void)
+{
+    return test_run_create_with(NULL, 2);
+}
+
+static inline void
+test_run_destroy(otx_run *run)
+{
+    otx_heap *heap = run->heap;
+    otx_arena *arena = run->arena;
+
+    otx_pool_destroy(run->pool);
+    otx_arena_destroy(run->scratch);
+    otx_diagnostics_destroy(run->diagnostics);
+    otx_arena_destroy(arena);
+    assert_int_equal(otx_heap_used(heap), 0);
+    otx_heap_destroy(heap);
+}
+
+/* The last finding's sentence, "" when there is none. */
+static inline const char *
+test_last_message(const otx_run *run)
+{
+    osdtex_diagnostic d;
+    const int32_t count = otx_diagnostics_count(run->diagnostics);
+
+    if (count == 0)
+        return "";
+    otx_diagnostics_get(run->diagnostics, count - 1, &d);
+    return d.message;
+}
+
+#endif

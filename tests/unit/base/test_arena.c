@@ -1,0 +1,99 @@
+/* test_arena.c -- alignment, overflow, limits, release order. */
+#include "support.h"
+
+static void
+allocations_are_aligned_and_distinct(void **state)
+{
+    otx_run *run = *state;
+    char *a = OTX_NEW(run->arena, char, 1);
+    char *b = OTX_NEW(run->arena, char, 0);
+    char *c = OTX_NEW(run->arena, char, 1 << 20);
+
+    assert_non_null(a);
+    assert_true(b != a && c != b);
+    assert_int_equal((uintptr_t)a % 64, 0);
+    assert_int_equal((uintptr_t)c % 64, 0);
+    memset(c, 1, 1 << 20);
+}
+
+static void
+a_product_that_overflows_is_refused(void **state)
+{
+    otx_run *run = *state;
+
+    assert_null(otx_arena_alloc(run->arena, SIZE_MAX / 2, 3));
+    assert_null(otx_arena_alloc(run->arena, SIZE_MAX, 1));
+}
+
+static void
+note_call(void *object)
+{
+    int *calls = object;
+
+    ++*calls;
+}
+
+static void
+release_runs_what_was_deferred_since_the_mark(void **state)
+{
+    otx_run *run = *state;
+    int before = 0, after = 0;
+    const size_t used = otx_heap_used(run->heap);
+    otx_arena *arena = otx_arena_create(run->heap);
+    otx_arena_mark mark;
+
+    assert_true(otx_arena_defer(arena, note_call, &before));
+    mark = otx_arena_here(arena);
+    assert_true(otx_arena_defer(arena, note_call, &after));
+    assert_non_null(OTX_NEW(arena, char, 1 << 22));
+    otx_arena_release(arena, mark);
+    assert_int_equal(before, 0);
+    assert_int_equal(after, 1);
+    otx_arena_destroy(arena);
+    assert_int_equal(before, 1);
+    assert_int_equal(otx_heap_used(run->heap), used);
+}
+
+static void
+a_limit_is_kept(void **state)
+{
+    const otx_heap_hooks hooks = {.limit_bytes = 1 << 20};
+    otx_heap *heap = otx_heap_create(&hooks);
+    otx_arena *arena = otx_arena_create(heap);
+
+    (void)state;
+    assert_null(OTX_NEW(arena, char, 2 << 20));
+    assert_non_null(OTX_NEW(arena, char, 1 << 19));
+    assert_null(OTX_NEW(arena, char, 1 << 19));
+    otx_arena_destroy(arena);
+    assert_int_equal(otx_heap_used(heap), 0);
+    assert_true(otx_heap_peak(heap) <= 1 << 20);
+    otx_heap_destroy(heap);
+}
+
+static int
+setup(void **state)
+{
+    *state = test_run_create();
+    return 0;
+}
+
+static int
+teardown(void **state)
+{
+    test_run_destroy(*state);
+    return 0;
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(allocations_are_aligned_and_distinct),
+        cmocka_unit_test(a_product_that_overflows_is_refused),
+        cmocka_unit_test(release_runs_what_was_deferred_since_the_mark),
+        cmocka_unit_test(a_limit_is_kept),
+    };
+
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
