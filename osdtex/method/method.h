@@ -1,0 +1,73 @@
+/* method.h -- the one table of methods and the call that runs one.
+ *
+ * A method is a const row: name, source, settings, and `map`. The driver
+ * checks the request, runs it, and finishes the mapping. Deleting a method's
+ * folder and its row leaves everything else compiling. */
+#ifndef OTX_METHOD_METHOD_H
+#define OTX_METHOD_METHOD_H
+
+#include "image/exemplar.h"
+#include "mapping/mapping.h"
+#include "method/option.h"
+#include "surface/surface.h"
+
+enum
+{
+    OTX_STAGE_MAX = 16
+};
+
+/* What a run did, for the report. Times are wall seconds. */
+typedef struct otx_map_stats
+{
+    int32_t stage_count;
+    struct
+    {
+        const char *name;
+        double seconds;
+    } stages[OTX_STAGE_MAX];
+    int32_t fit_count;                  /* searches made */
+    int32_t split_count;                /* clusters given to their children */
+    int32_t patches[OTX_LEVEL_MAX + 2]; /* fitted, by hierarchy level; [0] is
+                                         * what was grown above the cage */
+    double threshold;                   /* tau as resolved, 1 = random pair */
+    double fit_error_mean;              /* of accepted fits, same unit */
+    double cut_before, cut_after;       /* seam energy; 0 when not cut */
+    double relax_before, relax_after;
+} otx_map_stats;
+
+/* What every method is asked, whatever its settings. */
+typedef struct otx_map_request
+{
+    double scale; /* width of the exemplar in scene units, > 0 */
+    /* The user's first patch; face -1 none. */
+    int32_t first_face;      /* of the cage */
+    otx_vec2 first_position; /* UV that its middle lands on */
+    double first_angle;      /* radians */
+} otx_map_request;
+
+typedef struct otx_method
+{
+    const char *name;
+    const char *summary; /* one sentence */
+    const char *source;  /* the paper */
+    const otx_option *options;
+    int32_t option_count;
+    size_t settings_bytes;
+    otx_status (*map)(
+        otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+        const otx_map_request *request, const void *settings, otx_mapping *out,
+        otx_map_stats *stats);
+} otx_method;
+
+int32_t otx_method_count(void);
+const otx_method *otx_method_at(int32_t index);
+/* NULL when there is none of that name. */
+const otx_method *otx_method_find(const char *name);
+
+/* Runs `method`. The mapping lives in run->arena and borrows the surface. */
+otx_status otx_method_map(
+    otx_run *run, const otx_method *method, const otx_surface *surface,
+    const otx_exemplar *exemplar, const otx_map_request *request,
+    const void *settings, otx_mapping *out, otx_map_stats *stats);
+
+#endif
