@@ -7,6 +7,8 @@
 #ifndef OTX_IMAGE_EXEMPLAR_H
 #define OTX_IMAGE_EXEMPLAR_H
 
+#include "image/colour.h"
+#include "image/embedding.h"
 #include "image/image.h"
 
 typedef struct otx_exemplar
@@ -30,6 +32,46 @@ typedef struct otx_exemplar
     const char *interop_id; /* colorInteropID of linear_space, NULL unknown */
     bool has_chromaticities;
     float chromaticities[8]; /* of linear_space: R, G, B, W xy pairs */
+    otx_embedding embedding; /* of `match` */
 } otx_exemplar;
+
+typedef enum otx_exemplar_wrap
+{
+    OTX_EXEMPLAR_WRAP_AUTO, /* tested for each axis */
+    OTX_EXEMPLAR_WRAP_NO,
+    OTX_EXEMPLAR_WRAP_YES
+} otx_exemplar_wrap;
+
+enum
+{
+    OTX_EXEMPLAR_MIN_SIDE = 8
+};
+
+/* A decoded file and what the user said about it. Zero is a fine default for
+ * all but `pixels`. */
+typedef struct otx_exemplar_input
+{
+    otx_image pixels; /* grey, grey + A, RGB or RGBA; left as it is */
+    /* Colour is already multiplied by A, as in EXR (not in PNG). */
+    bool alpha_associated;
+    otx_colour_source source; /* what the file and --from say of its colours */
+    const char *hash;         /* of the file's bytes, NULL unknown */
+    const char *to;           /* --to, NULL role scene_linear */
+    const char *match_space;  /* --match-space, NULL role color_picking */
+    otx_embedding embedding;
+    otx_exemplar_wrap wrap;
+} otx_exemplar_input;
+
+/* Builds all of an exemplar in run->arena and says each decision in a finding.
+ *
+ * Alpha: colour is converted unassociated, `linear` holds it associated
+ * (multiplied by A, as EXR has it), and matching sees it over black.
+ * Spaces that hold data pass unchanged.
+ *
+ * ARGUMENT (channels), LIMIT (smaller than OTX_EXEMPLAR_MIN_SIDE or larger
+ * than an image may be), NUMERIC (a value that is not finite), COLOUR. */
+otx_status otx_exemplar_build(
+    otx_run *run, const otx_colour *colour, const otx_exemplar_input *input,
+    otx_exemplar *out);
 
 #endif

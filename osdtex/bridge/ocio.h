@@ -1,0 +1,94 @@
+/* ocio.h -- OpenColorIO behind a C interface.
+ *
+ * A thin layer: it opens a configuration, answers questions about its colour
+ * spaces and converts arrays of pixels. What to convert to what is decided in
+ * image/colour. Every entry catches whatever OpenColorIO throws and turns it
+ * into OSDTEX_ERROR_COLOUR and one sentence in `message`, a caller's array of
+ * OTX_OCIO_MESSAGE_BYTES that is "" on success.
+ *
+ * A configuration is immutable once opened; it and its conversions may be used
+ * from several threads at once. Strings that are returned live as long as the
+ * configuration. */
+#ifndef OTX_BRIDGE_OCIO_H
+#define OTX_BRIDGE_OCIO_H
+
+#include "base/status.h"
+
+#ifdef __cplusplus
+extern "C"
+{
+#endif
+
+    enum
+    {
+        OTX_OCIO_MESSAGE_BYTES = 512
+    };
+
+    /* A configuration. */
+    typedef struct otx_ocio otx_ocio;
+
+    /* Opens the configuration file `path`. The file must be a text
+     * configuration (not an .ocioz archive) of a version that the installed
+     * OpenColorIO knows. Look-up tables are first read when they are needed. */
+    otx_status otx_ocio_open(const char *path, otx_ocio **out, char *message);
+
+    /* Opens the configuration built into osdtex (builtin_config.h). */
+    otx_status otx_ocio_open_builtin(otx_ocio **out, char *message);
+
+    /* NULL is fine. */
+    void otx_ocio_close(otx_ocio *ocio);
+
+    /* OpenColorIO's own check of the whole configuration. A real configuration
+     * may fail it over a space that nobody uses. */
+    otx_status otx_ocio_validate(const otx_ocio *ocio, char *message);
+
+    int32_t otx_ocio_space_count(const otx_ocio *ocio);
+
+    /* Name of space `index`, "" out of range. Inactive spaces are included. */
+    const char *otx_ocio_space_name(const otx_ocio *ocio, int32_t index);
+
+    /* The proper name of a colour space given by name, alias or role, without
+     * regard to case; NULL when the configuration has no such space. */
+    const char *otx_ocio_find(const otx_ocio *ocio, const char *name);
+
+    /* The proper name of the space of `role`; NULL where it is not assigned. */
+    const char *otx_ocio_role(const otx_ocio *ocio, const char *role);
+
+    /* Up to three names and aliases that resemble `name`, as "'a', 'b'". */
+    void otx_ocio_near(
+        const otx_ocio *ocio, const char *name, char *text, size_t bytes);
+
+    /* Whether `space` holds data that is never converted. */
+    bool otx_ocio_is_data(const otx_ocio *ocio, const char *space);
+
+    /* "scene-linear", "sdr-video", "log", "data", … or "" where not stated. */
+    const char *otx_ocio_encoding(const otx_ocio *ocio, const char *space);
+
+    /* The space that the file rules give to `path`; NULL when only the Default
+     * rule matches it, which says nothing about the file. */
+    const char *otx_ocio_file_rule(const otx_ocio *ocio, const char *path);
+
+    /* A conversion between two spaces of a configuration, on the CPU. */
+    typedef struct otx_ocio_conversion otx_ocio_conversion;
+
+    /* `from` and `to` by name, alias or role. */
+    otx_status otx_ocio_convert(
+        const otx_ocio *ocio, const char *from, const char *to,
+        otx_ocio_conversion **out, char *message);
+
+    /* NULL is fine. */
+    void otx_ocio_conversion_destroy(otx_ocio_conversion *conversion);
+
+    /* Whether it leaves every pixel as it is. */
+    bool otx_ocio_conversion_is_identity(const otx_ocio_conversion *conversion);
+
+    /* Converts in place `count` interleaved pixels of 3 or 4 channels (R, G,
+     * B[, A]); A is not touched. */
+    otx_status otx_ocio_conversion_apply(
+        const otx_ocio_conversion *conversion, float *pixels, int64_t count,
+        int32_t channels, char *message);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
