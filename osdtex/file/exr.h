@@ -1,0 +1,95 @@
+/* exr.h -- OpenEXR files through OpenEXR's C core.
+ *
+ * Reading is by picture.h. Writing gives one part with the channels R, G, B
+ * (and A), ZIP compressed. A *texture* is tiled 64 x 64 and mip-mapped with
+ * sizes rounded down; a *render* is scanlines. The same input gives the same
+ * bytes: no dates, no host, chunks in order. */
+#ifndef OTX_FILE_EXR_H
+#define OTX_FILE_EXR_H
+
+#include "file/picture.h"
+
+enum
+{
+    OTX_EXR_TILE = 64
+};
+
+typedef enum otx_exr_kind
+{
+    OTX_EXR_TEXT,
+    OTX_EXR_INTEGER,
+    OTX_EXR_REAL
+} otx_exr_kind;
+
+/* One more line of the header. Names must not repeat those written anyway. */
+typedef struct otx_exr_attribute
+{
+    const char *name; /* at most 255 bytes */
+    otx_exr_kind kind;
+    const char *text;
+    int32_t integer;
+    float real;
+} otx_exr_attribute;
+
+typedef struct otx_exr_options
+{
+    bool tiled;      /* a texture; false: scanlines, no mip levels */
+    bool full_float; /* 32 bits a channel; false: half */
+    bool wrap_x;     /* the picture repeats: "periodic", else "clamp" */
+    bool wrap_y;
+    bool has_chromaticities;
+    float chromaticities[8]; /* R, G, B, W as xy pairs */
+    const char *color_space; /* oiio:ColorSpace, NULL leaves it out */
+    const char *interop_id;  /* colorInteropID, NULL leaves it out */
+    const otx_exr_attribute *attributes; /* [attribute_count] */
+    int32_t attribute_count;
+    /* Mip levels 1, 2, ... made by the caller, where averaging over the whole
+     * picture would mix what must stay apart. [level_count], NULL: box filter.
+     * Level l must be max(1, width >> l) by max(1, height >> l), and all
+     * otx_pyramid_count(width, height) - 1 of them must be there. */
+    const otx_image *levels;
+    int32_t level_count;
+} otx_exr_options;
+
+static inline otx_exr_options
+otx_exr_options_default(void)
+{
+    return (otx_exr_options){.tiled = true};
+}
+
+/* Writes `image` (3 or 4 channels) at `path`; nothing is left there on
+ * failure. Finite values beyond 65504 are clamped to it in half files, with a
+ * note. ARGUMENT, NUMERIC (a value is not finite), IO, MEMORY. */
+otx_status otx_exr_write(
+    otx_run *run, const char *path, const otx_image *image,
+    const otx_exr_options *options);
+
+/* The same in pieces, for pictures that are never in memory as a whole. */
+typedef struct otx_exr_writer otx_exr_writer;
+
+/* Opens the file and writes its header. The writer lives in run->arena; when
+ * that is released before otx_exr_end the unfinished file is removed.
+ * options->levels is not looked at: every level is put by the caller. */
+otx_status otx_exr_begin(
+    otx_run *run, const char *path, int32_t width, int32_t height,
+    int32_t channels, const otx_exr_options *options, otx_exr_writer **out);
+
+/* Writes the next chunk, which must be asked for in file order: levels from 0
+ * up; within a level rows of tiles from the TOP, within a row from the left.
+ * A scanline file has level 0 and x 0 only, and chunks of 16 rows.
+ *
+ *   x, y    of the chunk, counted in chunks; y from the top
+ *   pixels  a picture of exactly the chunk's size, row 0 at its bottom, or a
+ *           part of a larger one: `stride` floats lead from a row to the one
+ *           above */
+otx_status otx_exr_put(
+    otx_exr_writer *writer, int32_t level, int32_t x, int32_t y,
+    const float *pixels, ptrdiff_t stride);
+
+/* Writes the offsets and gives the file its name. All chunks must be there. */
+otx_status otx_exr_end(otx_exr_writer *writer);
+
+/* Reads an EXR into `out`; called by otx_picture_read. */
+otx_status otx_exr_read(otx_run *run, const char *path, otx_picture *out);
+
+#endif

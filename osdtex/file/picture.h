@@ -1,0 +1,82 @@
+/* picture.h -- a picture file as it comes from disk: float pixels, and what
+ * the file says about their colours.
+ *
+ * No colour is converted here. Integers become [0, 1] by division by their
+ * maximum; floats are as stored. The format is recognised by the first bytes,
+ * never by the extension. See docs/formats-images.md. */
+#ifndef OTX_FILE_PICTURE_H
+#define OTX_FILE_PICTURE_H
+
+#include "image/image.h"
+
+enum
+{
+    /* 8192 x 8192: one GiB of RGBA floats. */
+    OTX_PICTURE_MAX_PIXELS = 1 << 26
+};
+
+typedef enum otx_picture_kind
+{
+    OTX_PICTURE_EXR,
+    OTX_PICTURE_PNG,
+    OTX_PICTURE_TIFF,
+    OTX_PICTURE_JPEG
+} otx_picture_kind;
+
+/* Pixel bounds, both ends included, y down as in the file. */
+typedef struct otx_picture_window
+{
+    int32_t x_min, y_min, x_max, y_max;
+} otx_picture_window;
+
+typedef struct otx_picture
+{
+    otx_image image; /* 3 channels (R, G, B), or 4 with A; row 0 at the bottom;
+                      * all values finite */
+    otx_picture_kind kind;
+    bool is_float; /* stored as half, float or double */
+    int32_t bits;  /* of a stored channel: 1 to 64 */
+    bool has_alpha;
+    bool alpha_is_premultiplied; /* EXR, and TIFF that says so */
+    bool is_gray;                /* one stored channel, given three times */
+    /* Colour metadata found in the file; NULL, false and 0 where absent. */
+    const char *interop_id;  /* EXR colorInteropID */
+    const char *oiio_space;  /* EXR oiio:ColorSpace */
+    bool has_chromaticities; /* EXR only: the primaries of linear values */
+    float chromaticities[8]; /* R, G, B, W as xy pairs */
+    bool says_srgb;          /* PNG sRGB chunk */
+    float gamma;             /* PNG gAMA, the encoding exponent */
+    bool has_icc_profile;    /* PNG, TIFF; JPEG profiles are not looked for */
+    /* EXR windows as stored; others: the whole picture, twice. `image` is
+     * their intersection. */
+    otx_picture_window data_window;
+    otx_picture_window display_window;
+    const char *layer; /* EXR layer the channels are from, NULL none */
+    int32_t part;      /* EXR part, 0 for all others */
+} otx_picture;
+
+/* Reads EXR, PNG, TIFF or JPEG. Pixels and strings are in run->arena; nothing
+ * is left there on failure.
+ *
+ * IO      the file does not open or read
+ * FORMAT  not one of the four formats, damaged, or cut short
+ * SUPPORT a kind of file that is not read (deep, DWA, CMYK, ...)
+ * LIMIT   larger than OTX_IMAGE_MAX_SIDE or OTX_PICTURE_MAX_PIXELS
+ * NUMERIC a pixel is not finite: the first is named
+ * MEMORY  */
+otx_status otx_picture_read(otx_run *run, const char *path, otx_picture *out);
+
+/* For the readers of one format: checks the limits and creates out->image.
+ * Sizes are what the file claims, in full, so that no cast can hide them. */
+otx_status otx_picture_create(
+    otx_run *run, const char *path, int64_t width, int64_t height,
+    int32_t channels, otx_picture *out);
+
+/* Row `y_down` counted from the top. */
+static inline float *
+otx_picture_row(const otx_picture *picture, int32_t y_down)
+{
+    return otx_image_at(&picture->image, 0, picture->image.height - 1 - y_down);
+}
+
+#endif
