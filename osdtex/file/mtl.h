@@ -1,0 +1,41 @@
+/* mtl.h -- material libraries: as much of them as a picture needs.
+ *
+ * The writer is as plain as can be. Options of `map_Kd` break half of the
+ * readers (they take them for a part of the file name), so it writes none, and
+ * colour spaces are told elsewhere. */
+#ifndef OTX_FILE_MTL_H
+#define OTX_FILE_MTL_H
+
+#include "base/run.h"
+
+typedef struct otx_mtl_material
+{
+    const char *name;   /* verbatim: the rest of the line */
+    float diffuse[3];   /* `Kd`, 1 1 1 when absent */
+    const char *map_kd; /* file name as written, options skipped; NULL none */
+    int64_t line;       /* of `newmtl`; the writer does not look */
+} otx_mtl_material;
+
+typedef struct otx_mtl
+{
+    const char *path;
+    int32_t count;
+    const otx_mtl_material *materials; /* [count], in the file's order */
+} otx_mtl;
+
+/* Reads `path` into run->arena. FORMAT with file and line, IO, MEMORY. */
+otx_status otx_mtl_read(otx_run *run, const char *path, otx_mtl *out);
+otx_status otx_mtl_parse(
+    otx_run *run, const char *name, const char *bytes, size_t size,
+    otx_mtl *out);
+
+/* Index of the material called `name`, or written as `name` by our writers
+ * (blanks become `_`); -1 none. Of several, the last, as readers do. */
+int32_t otx_mtl_find(const otx_mtl *mtl, const char *name);
+
+/* Writes `newmtl`, `Kd`, `illum 1` and `map_Kd` for each material to `path`.
+ * `title` is for messages (NULL: the path). */
+otx_status otx_mtl_write(
+    otx_run *run, const otx_mtl *mtl, const char *path, const char *title);
+
+#endif
