@@ -12,8 +12,18 @@
  * Every call that can fail returns an osdtex_status; on failure *out is NULL,
  * the inputs are untouched, and the context holds diagnostics addressed to the
  * person who owns the file. Handles are immutable once returned; a context
- * serves one thread of control at a time. `*_create`, `*_read`, `*_refine` and
- * `osdtex_map` return handles that the caller destroys; getters borrow.
+ * serves one thread of control at a time. `*_create`, `*_read`, `*_refine`,
+ * `osdtex_map` and `osdtex_render` return handles that the caller destroys;
+ * `*_describe` lends what lives as long as the handle.
+ *
+ * A handle borrows those it was made from (a surface its cage, a mapping its
+ * surface and exemplar, a model its mapping): destroy it before them, and the
+ * context last. Destroying NULL is fine.
+ *
+ * Structs that open with `size` may grow at their end in later versions; get
+ * one from its `*_default` or `*_none` function, which sets `size`. Structs
+ * that a `*_describe` lends may grow too; all others are final. NULL for
+ * options means the defaults.
  *
  * Conventions: UV (0,0) is the lower-left corner of the picture, v up.
  * Positions are in scene units and are never rescaled. Angles are in radians.
@@ -21,6 +31,7 @@
 #ifndef OSDTEX_OSDTEX_H
 #define OSDTEX_OSDTEX_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -87,7 +98,576 @@ extern "C"
     typedef struct osdtex_surface osdtex_surface;
     typedef struct osdtex_exemplar osdtex_exemplar;
     typedef struct osdtex_mapping osdtex_mapping;
+    typedef struct osdtex_model osdtex_model;
     typedef struct osdtex_image osdtex_image;
+
+    /* "0.1.0", of the library that is running. */
+    OSDTEX_API const char *osdtex_version(void);
+
+    /* "OK", "ARGUMENT", …; "UNKNOWN" for a code that is none of ours. */
+    OSDTEX_API const char *osdtex_status_name(osdtex_status status);
+
+    enum
+    {
+        OSDTEX_HASH_BYTES = 33 /* 128 bits in hexadecimal, and the NUL */
+    };
+
+    /* Hash of `bytes` bytes, as reports give it for files (XXH3-128). */
+    OSDTEX_API void
+    osdtex_hash(const void *data, size_t bytes, char text[OSDTEX_HASH_BYTES]);
+
+    /* ------------------------------------------------------------------ */
+    /* Context: memory, threads, colour, and where findings go.            */
+
+    typedef struct osdtex_context_options
+    {
+        size_t size;
+        /* Allocation hooks, called from several threads. `alloc` returns NULL
+         * on failure, `release` gets the size back. NULL: malloc and free. */
+        void *(*alloc)(void *user, size_t bytes);
+        void (*release)(void *user, void *block, size_t bytes);
+        void *alloc_user;
+        size_t memory_limit; /* bytes, 0 none */
+        /* Says how far `stage` has come, in [0, 1]; false cancels. Called from
+         * the thread that made the call. NULL none. */
+        bool (*progress)(void *user, const char *stage, double fraction);
+        void *progress_user;
+        /* Called for each new finding, not for its repeats. NULL none. */
+        void (*log)(void *user, const osdtex_diagnostic *finding);
+        void *log_user;
+        /* OpenColorIO configuration file; NULL: $OCIO, else the one built in.
+         * Opened when the first colour is met. */
+        const char *colorconfig;
+        int32_t threads; /* 0: the cores of the machine */
+        int32_t reserved;
+    } osdtex_context_options;
+
+    static inline osdtex_context_options osdtex_context_options_default(void)
+    {
+        osdtex_context_options options = {
+            sizeof(osdtex_context_options),
+            NULL,
+            NULL,
+            NULL,
+            0,
+            NULL,
+            NULL,
+            NULL,
+            NULL,
+            NULL,
+            0,
+            0};
+
+        return options;
+    }
+
+    /* ARGUMENT (threads below 0 or above 1024), MEMORY. */
+    OSDTEX_API osdtex_status osdtex_context_create(
+        const osdtex_context_options *options, osdtex_context **out);
+    OSDTEX_API void osdtex_context_destroy(osdtex_context *context);
+
+    /* Findings in the order of their first occurrence. */
+    OSDTEX_API int32_t osdtex_diagnostic_count(const osdtex_context *context);
+    /* ARGUMENT when there is no finding `index`. */
+    OSDTEX_API osdtex_status osdtex_diagnostic_get(
+        const osdtex_context *context, int32_t index, osdtex_diagnostic *out);
+    /* Forgets all findings: like ones are folded until then. MEMORY. */
+    OSDTEX_API osdtex_status osdtex_diagnostic_clear(osdtex_context *context);
+
+    /* ------------------------------------------------------------------ */
+    /* Cage: the artist's control mesh, validated.                         */
+
+    typedef int32_t osdtex_scheme;
+    enum
+    {
+        OSDTEX_SCHEME_CATMARK = 0,
+        OSDTEX_SCHEME_LOOP = 1, /* triangles only */
+        OSDTEX_SCHEME_BILINEAR = 2
+    };
+
+    /* What the file's tag says, else USD's default. */
+    enum
+    {
+        OSDTEX_UNSET = -1
+    };
+
+    /* What happens at the rim, in USD's words. */
+    typedef int32_t osdtex_boundary;
+    enum
+    {
+        OSDTEX_BOUNDARY_NONE = 0,
+        OSDTEX_BOUNDARY_EDGE_ONLY = 1,
+        OSDTEX_BOUNDARY_EDGE_AND_CORNER = 2 /* USD's default */
+    };
+
+    /* How the cage's UVs are smoothed, in USD's words. */
+    typedef int32_t osdtex_fvar;
+    enum
+    {
+        OSDTEX_FVAR_NONE = 0,
+        OSDTEX_FVAR_CORNERS_ONLY = 1,
+        OSDTEX_FVAR_CORNERS_PLUS1 = 2, /* USD's default */
+        OSDTEX_FVAR_CORNERS_PLUS2 = 3,
+        OSDTEX_FVAR_BOUNDARIES = 4,
+        OSDTEX_FVAR_ALL = 5
+    };
+
+    typedef struct osdtex_cage_options
+    {
+        size_t size;
+        osdtex_scheme scheme;
+        osdtex_boundary boundary; /* OSDTEX_UNSET: the file's */
+        osdtex_fvar fvar;         /* OSDTEX_UNSET: the file's */
+        int32_t reserved;
+    } osdtex_cage_options;
+
+    static inline osdtex_cage_options osdtex_cage_options_default(void)
+    {
+        osdtex_cage_options options = {
+            sizeof(osdtex_cage_options), OSDTEX_SCHEME_CATMARK, OSDTEX_UNSET,
+            OSDTEX_UNSET, 0};
+
+        return options;
+    }
+
+    /* A cage as arrays. They are copied. */
+    typedef struct osdtex_cage_arrays
+    {
+        size_t size;
+        osdtex_index vert_count;
+        osdtex_index face_count;
+        const float *points;            /* [vert_count * 3], scene units */
+        const osdtex_index *face_sizes; /* [face_count], 3 or more */
+        const osdtex_index *face_verts; /* [sum of face_sizes], 0-based,
+                                         * counter-clockwise outside */
+        osdtex_index uv_count;
+        osdtex_index crease_count;
+        const float *uvs;                 /* [uv_count * 2]; NULL none */
+        const osdtex_index *face_uvs;     /* [sum of face_sizes]; NULL none */
+        const osdtex_index *crease_verts; /* [crease_count * 2] */
+        const float *crease_sharpness;    /* [crease_count], 10 is infinite */
+        osdtex_index corner_count;
+        osdtex_index hole_count;
+        const osdtex_index *corner_verts; /* [corner_count] */
+        const float *corner_sharpness;    /* [corner_count] */
+        const osdtex_index *hole_faces;   /* [hole_count] */
+    } osdtex_cage_arrays;
+
+    static inline osdtex_cage_arrays osdtex_cage_arrays_none(void)
+    {
+        osdtex_cage_arrays arrays = {
+            sizeof(osdtex_cage_arrays),
+            0,
+            0,
+            NULL,
+            NULL,
+            NULL,
+            0,
+            0,
+            NULL,
+            NULL,
+            NULL,
+            NULL,
+            0,
+            0,
+            NULL,
+            NULL,
+            NULL};
+
+        return arrays;
+    }
+
+    typedef struct osdtex_cage_info
+    {
+        const char *path; /* as given, NULL when made from arrays */
+        const char *hash; /* of the file's bytes, NULL when made from arrays */
+        osdtex_scheme scheme;
+        osdtex_boundary boundary; /* as resolved */
+        osdtex_fvar fvar;         /* as resolved */
+        osdtex_index vert_count;
+        osdtex_index face_count;
+        osdtex_index edge_count;
+        osdtex_index uv_count; /* 0: the cage has no UVs */
+        osdtex_index crease_count;
+        osdtex_index corner_count; /* sharp vertices */
+        osdtex_index hole_count;
+        osdtex_index triangle_count;
+        osdtex_index quad_count;
+        osdtex_index component_count;
+        osdtex_index boundary_edge_count;
+        osdtex_index material_count;
+        osdtex_index group_count;
+        float lower[3]; /* of the bounding box, scene units */
+        float upper[3];
+        double diagonal;         /* of the bounding box */
+        double mean_edge_length; /* scene units */
+        double default_scale;    /* what a scale of 0 means: diagonal / 5 */
+    } osdtex_cage_info;
+
+    /* Reads an OBJ. FORMAT, TOPOLOGY, LIMIT, NUMERIC, IO, MEMORY. */
+    OSDTEX_API osdtex_status osdtex_cage_read(
+        osdtex_context *context, const char *path,
+        const osdtex_cage_options *options, osdtex_cage **out);
+    /* ARGUMENT, and as osdtex_cage_read but for IO. */
+    OSDTEX_API osdtex_status osdtex_cage_create(
+        osdtex_context *context, const osdtex_cage_arrays *arrays,
+        const osdtex_cage_options *options, osdtex_cage **out);
+    OSDTEX_API const osdtex_cage_info *
+    osdtex_cage_describe(const osdtex_cage *cage);
+    OSDTEX_API void osdtex_cage_destroy(osdtex_cage *cage);
+
+    /* ------------------------------------------------------------------ */
+    /* Surface: the subdivision hierarchy and the limit of its leaves.     */
+
+    enum
+    {
+        OSDTEX_LEVEL_AUTO = -1,
+        OSDTEX_LEVEL_MAX = 10
+    };
+
+    typedef struct osdtex_surface_options
+    {
+        size_t size;
+        int32_t level; /* 0 .. OSDTEX_LEVEL_MAX, or OSDTEX_LEVEL_AUTO */
+        int32_t reserved;
+        /* Scene units a texel is to cover, for OSDTEX_LEVEL_AUTO: leaf edges
+         * come to about ten texels. Usually scale / exemplar width. */
+        double texel;
+    } osdtex_surface_options;
+
+    static inline osdtex_surface_options osdtex_surface_options_default(void)
+    {
+        osdtex_surface_options options = {
+            sizeof(osdtex_surface_options), OSDTEX_LEVEL_AUTO, 0, 0.0};
+
+        return options;
+    }
+
+    /* The leaf level, on the limit surface. Leaf faces are in the order of the
+     * cage's faces; the cage's vertices come first. */
+    typedef struct osdtex_surface_info
+    {
+        int32_t level; /* refinement steps */
+        osdtex_index vert_count;
+        osdtex_index face_count;
+        osdtex_index corner_count;
+        const float *points;            /* [vert_count * 3], scene units */
+        const float *normals;           /* [vert_count * 3], unit */
+        const float *tangents;          /* [vert_count * 6], unit pairs */
+        const osdtex_index *face_first; /* [face_count + 1], into corners */
+        const osdtex_index *face_verts; /* [corner_count] */
+        const osdtex_index *face_cage;  /* [face_count], face of the cage */
+        const uint8_t *face_hole;       /* [face_count], 1 hole; NULL none */
+        const float *uvs;               /* the cage's, [uv_count * 2] */
+        const osdtex_index *face_uvs;   /* [corner_count], NULL none */
+        osdtex_index uv_count;
+        osdtex_index reserved;
+        double area;             /* scene units squared, without holes */
+        double mean_edge_length; /* scene units */
+    } osdtex_surface_info;
+
+    /* ARGUMENT, LIMIT (predicted memory over the context's, too many
+     * elements), MEMORY, CANCELLED. */
+    OSDTEX_API osdtex_status osdtex_surface_refine(
+        osdtex_context *context, const osdtex_cage *cage,
+        const osdtex_surface_options *options, osdtex_surface **out);
+    OSDTEX_API const osdtex_surface_info *
+    osdtex_surface_describe(const osdtex_surface *surface);
+    OSDTEX_API void osdtex_surface_destroy(osdtex_surface *surface);
+
+    /* ------------------------------------------------------------------ */
+    /* Image: float pixels.                                                */
+
+    typedef struct osdtex_image_info
+    {
+        int32_t width;
+        int32_t height;
+        int32_t channels; /* interleaved: grey, grey + A, RGB, RGBA */
+        int32_t reserved;
+        const float *pixels; /* [height * width * channels], bottom row first,
+                              * colour multiplied by A */
+    } osdtex_image_info;
+
+    /* Copies `pixels`, laid out as in osdtex_image_info. ARGUMENT, LIMIT,
+     * MEMORY. */
+    OSDTEX_API osdtex_status osdtex_image_create(
+        osdtex_context *context, int32_t width, int32_t height,
+        int32_t channels, const float *pixels, osdtex_image **out);
+    OSDTEX_API const osdtex_image_info *
+    osdtex_image_describe(const osdtex_image *image);
+    /* Writes scene-linear pixels: NAME.exr as they are, NAME.png for the eye,
+     * through the sRGB space of the colour configuration. ARGUMENT (another
+     * extension), IO, COLOUR, MEMORY. */
+    OSDTEX_API osdtex_status osdtex_image_write(
+        osdtex_context *context, const osdtex_image *image, const char *path);
+    OSDTEX_API void osdtex_image_destroy(osdtex_image *image);
+
+    /* ------------------------------------------------------------------ */
+    /* Exemplar: the picture of a material, its colours resolved.          */
+
+    /* In what colours are compared. */
+    typedef int32_t osdtex_embedding;
+    enum
+    {
+        OSDTEX_EMBEDDING_HSV_CONE = 0,
+        OSDTEX_EMBEDDING_HSV_CYLINDER = 1,
+        OSDTEX_EMBEDDING_LAB = 2,
+        OSDTEX_EMBEDDING_RGB = 3
+    };
+
+    /* Whether the picture continues across its own border. */
+    typedef int32_t osdtex_wrap;
+    enum
+    {
+        OSDTEX_WRAP_AUTO = 0, /* tested, for each axis */
+        OSDTEX_WRAP_NO = 1,
+        OSDTEX_WRAP_YES = 2
+    };
+
+    typedef struct osdtex_exemplar_options
+    {
+        size_t size;
+        /* Colour spaces by name, alias or role; NULL: by the stated rules. */
+        const char *from;        /* of the file */
+        const char *to;          /* of what is written; role scene_linear */
+        const char *match_space; /* in which colours are compared */
+        osdtex_embedding embedding;
+        osdtex_wrap wrap;
+    } osdtex_exemplar_options;
+
+    static inline osdtex_exemplar_options osdtex_exemplar_options_default(void)
+    {
+        osdtex_exemplar_options options = {
+            sizeof(osdtex_exemplar_options),
+            NULL,
+            NULL,
+            NULL,
+            OSDTEX_EMBEDDING_HSV_CONE,
+            OSDTEX_WRAP_AUTO};
+
+        return options;
+    }
+
+    typedef struct osdtex_exemplar_info
+    {
+        const char *path;         /* as given, NULL when made from an image */
+        const char *hash;         /* of the file's bytes, NULL likewise */
+        const char *type;         /* "8-bit", "half", …; NULL likewise */
+        const char *source_space; /* as resolved */
+        const char *linear_space;
+        const char *match_space;
+        const char *embedding;
+        int32_t width;
+        int32_t height;
+        int32_t channels; /* of `pixels`: 3 or 4 */
+        int32_t wrap_x;   /* 1: tiles left to right */
+        int32_t wrap_y;
+        int32_t reserved;
+        const float *pixels; /* in linear_space, bottom row first */
+    } osdtex_exemplar_info;
+
+    /* Reads EXR, PNG, TIFF or JPEG, told by content. FORMAT, SUPPORT, LIMIT,
+     * NUMERIC (a pixel that is not finite), COLOUR, IO, MEMORY. */
+    OSDTEX_API osdtex_status osdtex_exemplar_read(
+        osdtex_context *context, const char *path,
+        const osdtex_exemplar_options *options, osdtex_exemplar **out);
+    /* The same from pixels, which are scene-linear unless `from` says else. */
+    OSDTEX_API osdtex_status osdtex_exemplar_create(
+        osdtex_context *context, const osdtex_image *image,
+        const osdtex_exemplar_options *options, osdtex_exemplar **out);
+    OSDTEX_API const osdtex_exemplar_info *
+    osdtex_exemplar_describe(const osdtex_exemplar *exemplar);
+    OSDTEX_API void osdtex_exemplar_destroy(osdtex_exemplar *exemplar);
+
+    /* ------------------------------------------------------------------ */
+    /* Methods and their settings.                                         */
+
+    typedef struct osdtex_method_info
+    {
+        const char *name;
+        const char *summary; /* one sentence */
+        const char *source;  /* the paper */
+        int32_t option_count;
+        int32_t reserved;
+    } osdtex_method_info;
+
+    typedef int32_t osdtex_option_kind;
+    enum
+    {
+        OSDTEX_OPTION_REAL = 0,
+        OSDTEX_OPTION_INTEGER = 1,
+        OSDTEX_OPTION_CHOICE = 2,
+        OSDTEX_OPTION_SWITCH = 3 /* on | off */
+    };
+
+    typedef struct osdtex_option_info
+    {
+        const char *name;
+        const char *help;           /* one sentence, with the unit */
+        const char *const *choices; /* NULL-terminated; CHOICE only */
+        double minimum;             /* REAL and INTEGER; inclusive */
+        double maximum;
+        char fallback[64]; /* the default, as osdtex_setting takes it */
+        osdtex_option_kind kind;
+        int32_t reserved;
+    } osdtex_option_info;
+
+    OSDTEX_API int32_t osdtex_method_count(void);
+    /* ARGUMENT when there is no such method, or it has no such option. */
+    OSDTEX_API osdtex_status
+    osdtex_method_get(int32_t method, osdtex_method_info *out);
+    OSDTEX_API osdtex_status
+    osdtex_option_get(int32_t method, int32_t option, osdtex_option_info *out);
+
+    /* ------------------------------------------------------------------ */
+    /* Mapping: UVs into the exemplar for every leaf face.                 */
+
+    typedef struct osdtex_setting
+    {
+        const char *key;
+        const char *value;
+    } osdtex_setting;
+
+    typedef struct osdtex_map_options
+    {
+        size_t size;
+        const char *method;             /* NULL: the first of the table */
+        const osdtex_setting *settings; /* [setting_count], later ones win */
+        int32_t setting_count;
+        osdtex_index first_face; /* of the cage: where to begin; -1 free */
+        double first_u;          /* UV that the first patch's middle gets */
+        double first_v;
+        double first_angle; /* radians, counter-clockwise in the picture */
+        double scale;       /* width of the exemplar in scene units; 0:
+                             * osdtex_cage_info.default_scale */
+        uint64_t seed;
+    } osdtex_map_options;
+
+    static inline osdtex_map_options osdtex_map_options_default(void)
+    {
+        osdtex_map_options options = {sizeof(osdtex_map_options),
+                                      NULL,
+                                      NULL,
+                                      0,
+                                      -1,
+                                      0.5,
+                                      0.5,
+                                      0.0,
+                                      0.0,
+                                      1};
+
+        return options;
+    }
+
+    typedef struct osdtex_mapping_info
+    {
+        const char *method;
+        double scale;                   /* as resolved */
+        osdtex_index face_count;        /* of the surface */
+        osdtex_index corner_count;      /* of the surface */
+        const float *uvs;               /* [corner_count * 2] */
+        const osdtex_index *face_patch; /* [face_count], -1 on holes */
+        osdtex_index patch_count;
+        osdtex_index reserved;
+    } osdtex_mapping_info;
+
+    /* ARGUMENT (with near names), LIMIT, NUMERIC, MEMORY, CANCELLED. */
+    OSDTEX_API osdtex_status osdtex_map(
+        osdtex_context *context, const osdtex_surface *surface,
+        const osdtex_exemplar *exemplar, const osdtex_map_options *options,
+        osdtex_mapping **out);
+    OSDTEX_API const osdtex_mapping_info *
+    osdtex_mapping_describe(const osdtex_mapping *mapping);
+
+    typedef struct osdtex_write_options
+    {
+        size_t size;
+        const char *const *comments; /* [comment_count] lines for OBJ, MTL */
+        int32_t comment_count;
+        int32_t without_image; /* 1: neither write nor replace the EXR */
+    } osdtex_write_options;
+
+    static inline osdtex_write_options osdtex_write_options_default(void)
+    {
+        osdtex_write_options options = {
+            sizeof(osdtex_write_options), NULL, 0, 0};
+
+        return options;
+    }
+
+    /* Writes NAME.obj (`path`), NAME.mtl and NAME.exr, all or none of them.
+     * ARGUMENT, IO, LIMIT, MEMORY, CANCELLED. */
+    OSDTEX_API osdtex_status osdtex_mapping_write(
+        osdtex_context *context, const osdtex_mapping *mapping,
+        const char *path, const osdtex_write_options *options);
+
+    /* Writes what was done as JSON: inputs with hashes, options and colour
+     * decisions as resolved, patches, seams, distortion, times since the
+     * context was created, findings. IO, MEMORY. */
+    OSDTEX_API osdtex_status osdtex_report_write(
+        osdtex_context *context, const osdtex_mapping *mapping,
+        const char *path);
+    OSDTEX_API void osdtex_mapping_destroy(osdtex_mapping *mapping);
+
+    /* ------------------------------------------------------------------ */
+    /* Pictures of the result.                                             */
+
+    /* Something to look at: a written OBJ with its MTL and textures. FORMAT,
+     * LIMIT, NUMERIC, COLOUR, IO, MEMORY. A texture that cannot be read is a
+     * warning. */
+    OSDTEX_API osdtex_status osdtex_model_read(
+        osdtex_context *context, const char *path, osdtex_model **out);
+    /* The same from a mapping, which it borrows. */
+    OSDTEX_API osdtex_status osdtex_model_create(
+        osdtex_context *context, const osdtex_mapping *mapping,
+        osdtex_model **out);
+    OSDTEX_API void osdtex_model_destroy(osdtex_model *model);
+
+    typedef struct osdtex_render_options
+    {
+        size_t size;
+        int32_t width;
+        int32_t height;
+        int32_t samples;  /* to a pixel's side: n * n, 1 .. 16 */
+        int32_t unlit;    /* 1: the colours as they are */
+        const char *show; /* "texture", "patches", "stretch", "seams", "uv",
+                           * "normals", "flat"; NULL: texture */
+        const char *view; /* "three_quarter", "front", "back", "left", "right",
+                           * "top"; NULL: three_quarter */
+        double turn;      /* of the view, radians about Y */
+        /* Where the eye is instead of `view`; fov 0: not used. */
+        double eye[3];
+        double target[3];
+        double fov;          /* of the picture's height, radians */
+        int32_t transparent; /* 1: alpha 0 around the model */
+        int32_t reserved;
+    } osdtex_render_options;
+
+    static inline osdtex_render_options osdtex_render_options_default(void)
+    {
+        osdtex_render_options options = {
+            sizeof(osdtex_render_options),
+            1280,
+            720,
+            4,
+            0,
+            NULL,
+            NULL,
+            0.0,
+            {0.0, 0.0, 0.0},
+            {0.0, 0.0, 0.0},
+            0.0,
+            0,
+            0};
+
+        return options;
+    }
+
+    /* Renders into an RGBA image, scene-linear. ARGUMENT, NUMERIC, MEMORY,
+     * CANCELLED. */
+    OSDTEX_API osdtex_status osdtex_render(
+        osdtex_context *context, const osdtex_model *model,
+        const osdtex_render_options *options, osdtex_image **out);
 
 #ifdef __cplusplus
 }
