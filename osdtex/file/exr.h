@@ -7,11 +7,13 @@
 #ifndef OTX_FILE_EXR_H
 #define OTX_FILE_EXR_H
 
+#include "file/atomic_file.h"
 #include "file/picture.h"
 
 enum
 {
-    OTX_EXR_TILE = 64
+    OTX_EXR_TILE = 64,
+    OTX_EXR_ROWS = 16 /* of a chunk of a scanline file, fixed by ZIP */
 };
 
 typedef enum otx_exr_kind
@@ -57,36 +59,45 @@ otx_exr_options_default(void)
     return (otx_exr_options){.tiled = true};
 }
 
-/* Writes `image` (3 or 4 channels) at `path`; nothing is left there on
- * failure. Finite values beyond 65504 are clamped to it in half files, with a
- * note. ARGUMENT, NUMERIC (a value is not finite), IO, MEMORY. */
+/* Writes `image` (3 or 4 channels) as the file `path` of `set`, which the
+ * caller commits. Finite values beyond 65504 are clamped to it in half files,
+ * with a note. ARGUMENT, NUMERIC (a value is not finite), IO, MEMORY. */
 otx_status otx_exr_write(
-    otx_run *run, const char *path, const otx_image *image,
-    const otx_exr_options *options);
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_image *image, const otx_exr_options *options);
 
 /* The same in pieces, for pictures that are never in memory as a whole. */
 typedef struct otx_exr_writer otx_exr_writer;
 
-/* Opens the file and writes its header. The writer lives in run->arena; when
- * that is released before otx_exr_end the unfinished file is removed.
- * options->levels is not looked at: every level is put by the caller. */
-otx_status otx_exr_begin(
-    otx_run *run, const char *path, int32_t width, int32_t height,
-    int32_t channels, const otx_exr_options *options, otx_exr_writer **out);
+/* What a streamed picture is. */
+typedef struct otx_exr_size
+{
+    int32_t width, height;
+    int32_t channels; /* 3 or 4 */
+} otx_exr_size;
 
-/* Writes the next chunk, which must be asked for in file order: levels from 0
- * up; within a level rows of tiles from the TOP, within a row from the left.
- * A scanline file has level 0 and x 0 only, and chunks of 16 rows.
+/* Adds `path` to `set` and writes its header. The writer lives in run->scratch
+ * and closes the file when that is released. options->levels is not looked at:
+ * every level is put by the caller. */
+otx_status otx_exr_begin(
+    otx_run *run, otx_atomic_file_set *set, const char *path, otx_exr_size size,
+    const otx_exr_options *options, otx_exr_writer **out);
+
+/* Writes the next chunk, in file order: levels from 0 up; within a level rows
+ * of tiles from the TOP, within a row from the left. A scanline file has level
+ * 0 and x 0 only, and chunks of OTX_EXR_ROWS rows.
  *
  *   x, y    of the chunk, counted in chunks; y from the top
- *   pixels  a picture of exactly the chunk's size, row 0 at its bottom, or a
- *           part of a larger one: `stride` floats lead from a row to the one
- *           above */
+ *   pixels  the texel at the lower left corner of the chunk
+ *   stride  floats from a row of texels to the one above
+ *
+ * Chunks at the right and lower rim are clipped to the level. ARGUMENT when it
+ * is not the next one, NUMERIC, IO, MEMORY. */
 otx_status otx_exr_put(
     otx_exr_writer *writer, int32_t level, int32_t x, int32_t y,
     const float *pixels, ptrdiff_t stride);
 
-/* Writes the offsets and gives the file its name. All chunks must be there. */
+/* Writes the offsets and closes the file. All chunks must be there. */
 otx_status otx_exr_end(otx_exr_writer *writer);
 
 /* Reads an EXR into `out`; called by otx_picture_read. */
