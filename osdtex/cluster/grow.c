@@ -1,0 +1,371 @@
+/* grow.c -- regions grown from spread seeds [Soler02, sec. 3.1].
+ *
+ * The paper draws seeds at random and afterwards exchanges faces to make
+ * borders regular. Here seeds are spread by farthest-point sampling and moved
+ * to the middle of their region a few times [Lloyd82; Cohen-Steiner04], which
+ * gives compact regions with regular borders at once, and depends on nothing
+ * but the mesh. */
+#include "cluster/cluster.h"
+
+#include "base/queue.h"
+
+#include <string.h>
+
+enum
+{
+    LLOYD_ROUNDS = 8,
+    OUTSIDE = -2, /* not a face of the region */
+    UNREACHED = -1
+};
+
+/* One growth. Arrays are over the faces of the level. */
+typedef struct growth
+{
+    otx_run *run;
+    const otx_dual *dual;
+    const otx_cluster *region;
+    double bend;
+    int32_t *owner;   /* seed index, UNREACHED or OUTSIDE */
+    double *distance; /* to the owner's seed */
+    int32_t *seeds;   /* faces */
+    int32_t seed_count;
+} growth;
+
+/* Spreads from one seed to where it is nearer than what was there. */
+static bool
+spread(growth *g, otx_queue *queue, int32_t seed)
+{
+    const otx_level *level = g->dual->level;
+    otx_queue_entry entry;
+
+    queue->count = 0;
+    g->owner[g->seeds[seed]] = seed;
+    g->distance[g->seeds[seed]] = 0.0;
+    if (!otx_queue_push(queue, 0.0, g->seeds[seed]))
+        return false;
+    while (otx_queue_pop(queue, &entry))
+    {
+        const int32_t face = entry.item;
+
+        if (entry.key > g->distance[face] || g->owner[face] != seed)
+            continue;
+        for (int32_t k = 0; k < otx_level_face_size(level, face); ++k)
+        {
+            const int32_t next = otx_level_neighbour(level, face, k);
+            double distance;
+
+            if (next < 0 || g->owner[next] == OUTSIDE)
+                continue;
+            distance = entry.key + otx_dual_step(g->dual, face, next, g->bend);
+            if (g->owner[next] != UNREACHED && distance >= g->distance[next])
+                continue;
+            g->owner[next] = seed;
+            g->distance[next] = distance;
+            if (!otx_queue_push(queue, distance, next))
+                return false;
+        }
+    }
+    return true;
+}
+
+static void
+forget(growth *g)
+{
+    for (int32_t i = 0; i < g->region->face_count; ++i)
+    {
+        g->owner[g->region->faces[i]] = UNREACHED;
+        g->distance[g->region->faces[i]] = INFINITY;
+    }
+}
+
+/* The face of the region farthest from all seeds; unreached ones first. */
+static int32_t
+farthest(const growth *g)
+{
+    int32_t best = g->region->faces[0];
+
+    for (int32_t i = 0; i < g->region->face_count; ++i)
+    {
+        const int32_t face = g->region->faces[i];
+
+        if (g->distance[face] > g->distance[best])
+            best = face;
+    }
+    return best;
+}
+
+static bool
+place_seeds(growth *g, otx_queue *queue, int32_t wanted)
+{
+    /* The first is far from an arbitrary face, so that it lies at an end. */
+    g->seeds[0] = g->region->faces[0];
+    g->seed_count = 1;
+    if (!spread(g, queue, 0))
+        return false;
+    g->seeds[0] = farthest(g);
+    forget(g);
+    if (!spread(g, queue, 0))
+        return false;
+    while (g->seed_count < g->region->face_count)
+    {
+        const int32_t face = farthest(g);
+
+        /* Go on past `wanted` until every component has a seed. */
+        if (g->seed_count >= wanted && isfinite(g->distance[face]))
+            break;
+        if (g->distance[face] == 0.0)
+            break;
+        g->seeds[g->seed_count] = face;
+        if (!spread(g, queue, g->seed_count++))
+            return false;
+    }
+    return true;
+}
+
+/* Moves every seed to the face of its region nearest to the centroid. */
+static bool
+center_seeds(growth *g, otx_arena *scratch)
+{
+    const otx_dual *dual = g->dual;
+    otx_vec3 *sum = OTX_ZNEW(scratch, otx_vec3, g->seed_count);
+    double *area = OTX_ZNEW(scratch, double, g->seed_count);
+    double *best = OTX_NEW(scratch, double, g->seed_count);
+
+    if (!sum || !area || !best)
+        return false;
+    for (int32_t i = 0; i < g->region->face_count; ++i)
+    {
+        const int32_t f = g->region->faces[i], s = g->owner[f];
+
+        sum[s] = otx_vec3_mix(1.0, sum[s], dual->areas[f], dual->centroids[f]);
+        area[s] += dual->areas[f];
+    }
+    for (int32_t s = 0; s < g->seed_count; ++s)
+        best[s] = INFINITY;
+    for (int32_t i = 0; i < g->region->face_count; ++i)
+    {
+        const int32_t f = g->region->faces[i], s = g->owner[f];
+        const otx_vec3 middle = area[s] > 0.0
+                                    ? otx_vec3_scale(1.0 / area[s], sum[s])
+                                    : dual->centroids[g->seeds[s]];
+        const double d =
+            otx_vec3_length(otx_vec3_sub(dual->centroids[f], middle));
+
+        if (d < best[s])
+        {
+            best[s] = d;
+            g->seeds[s] = f;
+        }
+    }
+    return true;
+}
+
+static bool
+lloyd(growth *g, otx_queue *queue, otx_arena *scratch)
+{
+    for (int32_t round = 0; round < LLOYD_ROUNDS; ++round)
+    {
+        const otx_arena_mark mark = otx_arena_here(scratch);
+
+        if (!center_seeds(g, scratch))
+            return false;
+        otx_arena_release(scratch, mark);
+        forget(g);
+        for (int32_t s = 0; s < g->seed_count; ++s)
+            if (!spread(g, queue, s))
+                return false;
+    }
+    return true;
+}
+
+/* The regions as clusters, in seed order; a seed may have lost everything. */
+static otx_status
+collect(growth *g, otx_cluster_list *out)
+{
+    otx_run *run = g->run;
+    const int32_t n = g->seed_count;
+    int32_t *faces = OTX_NEW(run->arena, int32_t, g->region->face_count);
+    int32_t *first = OTX_ZNEW(run->scratch, int32_t, n + 1);
+
+    out->clusters = OTX_NEW(run->arena, otx_cluster, n);
+    if (!faces || !first || !out->clusters)
+        return otx_fail_memory(run, "cluster");
+    for (int32_t i = 0; i < g->region->face_count; ++i)
+        ++first[g->owner[g->region->faces[i]] + 1];
+    for (int32_t s = 0; s < n; ++s)
+    {
+        first[s + 1] += first[s];
+        out->clusters[s] =
+            (otx_cluster){g->region->level, 0, faces + first[s], 0.0};
+    }
+    for (int32_t i = 0; i < g->region->face_count; ++i)
+    {
+        const int32_t f = g->region->faces[i], s = g->owner[f];
+
+        faces[first[s]++] = f;
+        ++out->clusters[s].face_count;
+        out->clusters[s].area += g->dual->areas[f];
+    }
+    out->count = n;
+    return OSDTEX_OK;
+}
+
+/* Grows `wanted` regions; says nothing about their topology. */
+static otx_status
+grow_regions(
+    otx_run *run, const otx_dual *dual, const otx_cluster *region,
+    int32_t wanted, double bend, otx_cluster_list *out)
+{
+    const int32_t n = dual->level->face_count;
+    growth g = {.run = run, .dual = dual, .region = region, .bend = bend};
+    otx_queue queue = otx_queue_make(run->scratch);
+
+    g.owner = OTX_NEW(run->scratch, int32_t, n);
+    g.distance = OTX_NEW(run->scratch, double, n);
+    g.seeds = OTX_NEW(run->scratch, int32_t, region->face_count);
+    if (!g.owner || !g.distance || !g.seeds)
+        return otx_fail_memory(run, "cluster");
+    for (int32_t f = 0; f < n; ++f)
+        g.owner[f] = OUTSIDE;
+    forget(&g);
+    if (!place_seeds(&g, &queue, wanted) || !lloyd(&g, &queue, run->scratch))
+        return otx_fail_memory(run, "cluster");
+    return collect(&g, out);
+}
+
+/* A list that grows in the run's arena. */
+static bool
+append(otx_run *run, otx_cluster_list *list, int32_t *capacity, otx_cluster c)
+{
+    if (list->count == *capacity)
+    {
+        const int32_t wanted = *capacity ? 2 * *capacity : 64;
+        otx_cluster *grown = OTX_NEW(run->arena, otx_cluster, wanted);
+
+        if (!grown)
+            return false;
+        if (list->count > 0)
+            memcpy(
+                grown, list->clusters,
+                (size_t)list->count * sizeof *list->clusters);
+        list->clusters = grown;
+        *capacity = wanted;
+    }
+    list->clusters[list->count++] = c;
+    return true;
+}
+
+static int32_t
+seeds_for(const otx_cluster *region, double target_area, int32_t minimum)
+{
+    const double wanted = region->area / target_area + 0.5;
+    int32_t n =
+        wanted < region->face_count ? (int32_t)wanted : region->face_count;
+
+    if (n < minimum)
+        n = minimum;
+    if (n < 1)
+        n = 1;
+    return n < region->face_count ? n : region->face_count;
+}
+
+/* Faces of the region that are not holes, as a region of their own. */
+static otx_status
+without_holes(
+    otx_run *run, const otx_dual *dual, const otx_cluster *region,
+    otx_cluster *out)
+{
+    int32_t *faces = OTX_NEW(run->scratch, int32_t, region->face_count);
+
+    if (!faces)
+        return otx_fail_memory(run, "cluster");
+    *out = (otx_cluster){region->level, 0, faces, 0.0};
+    for (int32_t i = 0; i < region->face_count; ++i)
+    {
+        const int32_t f = region->faces[i];
+
+        if (dual->level->face_hole[f])
+            continue;
+        faces[out->face_count++] = f;
+        out->area += dual->areas[f];
+    }
+    return OSDTEX_OK;
+}
+
+/* Every face on its own: for a region that growing does not divide, because
+ * all its centroids coincide. */
+static otx_status
+append_faces(
+    otx_run *run, const otx_dual *dual, const otx_cluster *region,
+    otx_cluster_list *out, int32_t *capacity)
+{
+    for (int32_t i = 0; i < region->face_count; ++i)
+    {
+        const int32_t *face = &region->faces[i];
+
+        if (!append(
+                run, out, capacity,
+                (otx_cluster){region->level, 1, face, dual->areas[*face]}))
+            return otx_fail_memory(run, "cluster");
+    }
+    return OSDTEX_OK;
+}
+
+/* Grows, then grows again, in halves, inside whatever is not a disc. Each
+ * round makes such a region smaller, so it ends at single faces at worst. */
+static otx_status
+grow_discs(
+    otx_run *run, const otx_dual *dual, const otx_cluster *region,
+    int32_t wanted, double bend, otx_cluster_list *out, int32_t *capacity,
+    int32_t *member)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    otx_cluster_list regions;
+
+    OTX_TRY(grow_regions(run, dual, region, wanted, bend, &regions));
+    otx_arena_release(run->scratch, mark);
+    for (int32_t i = 0; i < regions.count; ++i)
+    {
+        const otx_cluster *c = &regions.clusters[i];
+        bool disc = c->face_count == 1;
+
+        if (c->face_count == 0)
+            continue;
+        for (int32_t k = 0; k < c->face_count; ++k)
+            member[c->faces[k]] = 1;
+        disc = disc || otx_cluster_is_disc(
+                           run->scratch, dual->level, c->faces, c->face_count,
+                           member, 1);
+        for (int32_t k = 0; k < c->face_count; ++k)
+            member[c->faces[k]] = 0;
+        if (!disc && wanted > 1 && c->face_count == region->face_count)
+            OTX_TRY(append_faces(run, dual, c, out, capacity));
+        else if (!disc)
+            OTX_TRY(grow_discs(run, dual, c, 2, bend, out, capacity, member));
+        else if (!append(run, out, capacity, *c))
+            return otx_fail_memory(run, "cluster");
+    }
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_cluster_grow(
+    otx_run *run, const otx_dual *dual, const otx_cluster *region,
+    double target_area, int32_t minimum, double bend, otx_cluster_list *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    int32_t *member = OTX_ZNEW(run->scratch, int32_t, dual->level->face_count);
+    int32_t capacity = 0;
+    otx_cluster solid;
+
+    *out = (otx_cluster_list){0};
+    if (!member)
+        return otx_fail_memory(run, "cluster");
+    OTX_TRY(without_holes(run, dual, region, &solid));
+    if (solid.face_count > 0)
+        OTX_TRY(grow_discs(
+            run, dual, &solid, seeds_for(&solid, target_area, minimum), bend,
+            out, &capacity, member));
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
