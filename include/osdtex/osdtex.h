@@ -79,7 +79,8 @@ extern "C"
     };
 
     /* One finding. Like findings are folded: `count` says how many, the place
-     * is that of the first. Strings live as long as the context. */
+     * is that of the first. Strings live until osdtex_diagnostic_clear or the
+     * end of the context. */
     typedef struct osdtex_diagnostic
     {
         osdtex_severity severity;
@@ -161,7 +162,7 @@ extern "C"
         return options;
     }
 
-    /* ARGUMENT (threads below 0 or above 1024), MEMORY. */
+    /* ARGUMENT (threads below 0 or above 256), MEMORY. */
     OSDTEX_API osdtex_status osdtex_context_create(
         const osdtex_context_options *options, osdtex_context **out);
     OSDTEX_API void osdtex_context_destroy(osdtex_context *context);

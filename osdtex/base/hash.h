@@ -2,6 +2,7 @@
 #ifndef OTX_BASE_HASH_H
 #define OTX_BASE_HASH_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 enum
@@ -12,5 +13,9 @@ enum
 /* XXH3-128 of `bytes` bytes as lower-case hexadecimal. */
 void
 otx_hash_text(const void *data, size_t bytes, char text[OTX_HASH_TEXT_BYTES]);
+
+/* The same of a whole file, read in pieces. False when `path` is no plain file
+ * or cannot be read: then `text` is "". */
+bool otx_hash_file(const char *path, char text[OTX_HASH_TEXT_BYTES]);
 
 #endif
