@@ -54,9 +54,9 @@ extern "C"
     /* The proper name of the space of `role`; NULL where it is not assigned. */
     const char *otx_ocio_role(const otx_ocio *ocio, const char *role);
 
-    /* Up to three names and aliases that resemble `name`, as "'a', 'b'". */
-    void otx_ocio_near(
-        const otx_ocio *ocio, const char *name, char *text, size_t bytes);
+    /* Everything that a space may be called by: proper names, then aliases,
+     * then roles. NULL behind the end. */
+    const char *otx_ocio_name(const otx_ocio *ocio, int32_t index);
 
     /* Whether `space` holds data that is never converted. */
     bool otx_ocio_is_data(const otx_ocio *ocio, const char *space);
@@ -64,9 +64,11 @@ extern "C"
     /* "scene-linear", "sdr-video", "log", "data", … or "" where not stated. */
     const char *otx_ocio_encoding(const otx_ocio *ocio, const char *space);
 
-    /* The space that the file rules give to `path`; NULL when only the Default
-     * rule matches it, which says nothing about the file. */
-    const char *otx_ocio_file_rule(const otx_ocio *ocio, const char *path);
+    /* The space that the file rules give to `path`, and the name of the rule;
+     * NULL when only the Default rule matches, which says nothing about the
+     * file. */
+    const char *otx_ocio_file_rule(
+        const otx_ocio *ocio, const char *path, const char **rule);
 
     /* A conversion between two spaces of a configuration, on the CPU. */
     typedef struct otx_ocio_conversion otx_ocio_conversion;

@@ -53,7 +53,7 @@ typedef struct otx_exemplar_input
 {
     otx_image pixels; /* grey, grey + A, RGB or RGBA; left as it is */
     /* Colour is already multiplied by A, as in EXR (not in PNG). */
-    bool alpha_associated;
+    bool alpha_is_premultiplied;
     otx_colour_source source; /* what the file and --from say of its colours */
     const char *hash;         /* of the file's bytes, NULL unknown */
     const char *to;           /* --to, NULL role scene_linear */
