@@ -37,7 +37,7 @@ typedef struct otx_scene
 
     /* Shown as colours. NULL: patches are the islands of the UVs. */
     const int32_t *face_patch; /* [face_count] */
-    /* Distortion, 1 is none. NULL: see otx_stretch_faces. */
+    /* Distortion, 1 is none. NULL: see render/distortion.h. */
     const float *face_stretch; /* [face_count] */
 } otx_scene;
 
@@ -47,6 +47,11 @@ typedef struct otx_scene
 otx_status otx_scene_from_mapping(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
     otx_scene *out);
+
+/* Sets vert_normals to the mean of the faces around each vertex, weighted by
+ * area, in run->arena. Where a face departs from them it is shown flat, so
+ * sharp edges stay sharp. MEMORY. */
+otx_status otx_scene_smooth(otx_run *run, otx_scene *scene);
 
 /* Refuses what would be read out of bounds or cannot be traced: no face to
  * draw, a face of fewer than three corners, an index out of range, a position

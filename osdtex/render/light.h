@@ -1,0 +1,33 @@
+/* light.h -- the fixed lighting of previews: a key from the upper left of the
+ * camera and a sky, both softened by rays to the model itself. */
+#ifndef OTX_RENDER_LIGHT_H
+#define OTX_RENDER_LIGHT_H
+
+#include "render/camera.h"
+#include "render/tracer.h"
+
+typedef struct otx_light
+{
+    const otx_tracer *tracer;
+    otx_vec3 key;          /* unit, towards the light */
+    otx_vec3 key_x, key_y; /* across it, as long as its disc is wide */
+    bool shadows;
+} otx_light;
+
+/* A key that goes with the camera, so that every view is lit alike. */
+otx_light otx_light_create(
+    const otx_tracer *tracer, const otx_camera_frame *frame, bool shadows);
+
+/* How much light a white matte surface gives off, 1 being about as much as it
+ * shows under the key.
+ *
+ *   at       on the model, in the tracer's units
+ *   face     unit normal of the triangle, towards the eye
+ *   normal   unit normal to shade with
+ *   number   of this sample among `count` of the pixel
+ *   key      of the pixel: what its pattern of rays is turned by */
+double otx_light_at(
+    const otx_light *light, otx_vec3 at, otx_vec3 face, otx_vec3 normal,
+    int32_t number, int32_t count, uint64_t key);
+
+#endif

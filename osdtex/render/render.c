@@ -1,0 +1,258 @@
+/* render.c -- tiles, pixels, samples. */
+#include "render/render.h"
+
+#include "base/random.h"
+#include "render/shade.h"
+
+#include <string.h>
+
+static const char STAGE[] = "render";
+
+enum
+{
+    TILE = 32,
+    MAX_SAMPLES = 16
+};
+
+static const char *const SHOW_NAMES[OTX_SHOW_COUNT] = {
+    [OTX_SHOW_TEXTURE] = "texture", [OTX_SHOW_PATCHES] = "patches",
+    [OTX_SHOW_STRETCH] = "stretch", [OTX_SHOW_SEAMS] = "seams",
+    [OTX_SHOW_UV] = "uv",           [OTX_SHOW_NORMALS] = "normals",
+    [OTX_SHOW_FLAT] = "flat",
+};
+
+/* What the tiles of a picture share. */
+typedef struct job
+{
+    const otx_shade *shade;
+    otx_image *image;
+    int32_t row; /* of tiles */
+} job;
+
+otx_render_options
+otx_render_defaults(void)
+{
+    return (otx_render_options){
+        .width = 1280,
+        .height = 720,
+        .samples = 4,
+        .show = OTX_SHOW_TEXTURE,
+        .view = OTX_VIEW_THREE_QUARTER,
+        .seam_width = 1.5,
+    };
+}
+
+const char *
+otx_render_show_name(otx_show show)
+{
+    return SHOW_NAMES[show];
+}
+
+bool
+otx_render_show_find(const char *name, otx_show *out)
+{
+    for (int32_t i = 0; i < OTX_SHOW_COUNT; ++i)
+        if (strcmp(SHOW_NAMES[i], name) == 0)
+        {
+            *out = (otx_show)i;
+            return true;
+        }
+    return false;
+}
+
+static otx_status
+check_options(otx_run *run, const otx_render_options *options)
+{
+    if (options->width < 1 || options->width > OTX_IMAGE_MAX_SIDE ||
+        options->height < 1 || options->height > OTX_IMAGE_MAX_SIDE)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "a picture of %d x %d pixels cannot be made; choose sides from 1 "
+            "to %d",
+            options->width, options->height, OTX_IMAGE_MAX_SIDE);
+    if (options->samples < 1 || options->samples > MAX_SAMPLES)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "%d samples to a pixel's side cannot be taken; choose 1 to %d",
+            options->samples, MAX_SAMPLES);
+    if (options->show < 0 || options->show >= OTX_SHOW_COUNT ||
+        options->view < 0 || options->view >= OTX_VIEW_COUNT ||
+        !isfinite(options->turn) || !isfinite(options->seam_width))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "what to show, the view, the turn or the width of seams is not one "
+            "of those there are");
+    if (options->camera && !otx_camera_is_valid(options->camera))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "the camera cannot see: its eye must be apart from its target and "
+            "its field of view between 0 and 180 degrees");
+    return OSDTEX_OK;
+}
+
+/* Neutral and a little brighter at the top, like a studio's backdrop. */
+static float
+wall(double height)
+{
+    return (float)(0.115 + 0.085 * height);
+}
+
+/* A place in square (x, y) of the pixel's n x n, jittered by number. */
+static otx_vec2
+sample_place(int32_t n, int32_t number, uint64_t pixel)
+{
+    const uint64_t bits = otx_random_bits(pixel, 0, (uint64_t)number);
+    const double jx = (double)(bits >> 32) * 0x1p-32;
+    const double jy = (double)(bits & 0xFFFFFFFFu) * 0x1p-32;
+
+    if (n == 1)
+        return (otx_vec2){0.5, 0.5};
+    return (otx_vec2){(number % n + jx) / n, (number / n + jy) / n};
+}
+
+/* The nearest that a ray from far away need begin to meet the unit ball; the
+ * rest of the way would cost the floats of the ray their precision. */
+static otx_vec3
+ray_origin(otx_vec3 eye, otx_vec3 direction)
+{
+    const double skip = -otx_vec3_dot(eye, direction) - 1.5;
+
+    return skip > 0.0 ? otx_vec3_mix(1.0, eye, skip, direction) : eye;
+}
+
+static bool
+trace_sample(const otx_shade *shade, otx_shade_sample *sample, float rgb[3])
+{
+    const otx_camera_frame *frame = &shade->frame;
+    otx_hit hit;
+
+    sample->direction = otx_camera_direction(frame, sample->at.x, sample->at.y);
+    if (!otx_tracer_hit(
+            shade->tracer, ray_origin(frame->eye, sample->direction),
+            sample->direction, &hit))
+        return false;
+    otx_shade_hit(shade, &hit, sample, rgb);
+    return true;
+}
+
+static void
+render_pixel(const otx_shade *shade, int32_t x, int32_t y, float rgba[4])
+{
+    const otx_render_options *options = shade->options;
+    const int32_t n = options->samples;
+    const uint64_t pixel =
+        otx_random_mix((uint64_t)y << 32 | (uint64_t)(uint32_t)x);
+    double sum[4] = {0.0, 0.0, 0.0, 0.0};
+
+    for (int32_t i = 0; i < n * n; ++i)
+    {
+        const otx_vec2 place = sample_place(n, i, pixel);
+        otx_shade_sample sample = {
+            .at = {x + place.x, y + place.y}, .number = i, .pixel = pixel};
+        const float back = wall(sample.at.y / options->height);
+        float rgb[3] = {back, back, back};
+        const bool met = trace_sample(shade, &sample, rgb);
+
+        if (!met && options->transparent)
+            continue;
+        for (int32_t c = 0; c < 3; ++c)
+            sum[c] += rgb[c];
+        sum[3] += 1.0;
+    }
+    for (int32_t c = 0; c < 4; ++c)
+        rgba[c] = (float)(sum[c] / (n * n));
+}
+
+static otx_status
+render_tile(void *context, int64_t index, otx_worker *worker)
+{
+    const job *work = context;
+    const int32_t x0 = (int32_t)index * TILE;
+    const int32_t y0 = work->row * TILE;
+    const int32_t x1 =
+        x0 + TILE < work->image->width ? x0 + TILE : work->image->width;
+    const int32_t y1 =
+        y0 + TILE < work->image->height ? y0 + TILE : work->image->height;
+
+    (void)worker;
+    for (int32_t y = y0; y < y1; ++y)
+        for (int32_t x = x0; x < x1; ++x)
+            render_pixel(work->shade, x, y, otx_image_at(work->image, x, y));
+    return OSDTEX_OK;
+}
+
+/* Row after row of tiles, so that the user hears of it and can stop it. */
+static otx_status
+render_tiles(otx_run *run, const otx_shade *shade, otx_image *image)
+{
+    const int32_t columns = (image->width + TILE - 1) / TILE;
+    const int32_t rows = (image->height + TILE - 1) / TILE;
+
+    for (int32_t row = 0; row < rows; ++row)
+    {
+        job work = {shade, image, row};
+
+        OTX_TRY(otx_progress(run, STAGE, (double)row / rows));
+        OTX_TRY(otx_pool_for(run->pool, columns, render_tile, &work));
+    }
+    return otx_progress(run, STAGE, 1.0);
+}
+
+/* The camera of the options, in the tracer's units. */
+static otx_camera_frame
+aim_camera(
+    const otx_scene *scene, const otx_tracer *tracer,
+    const otx_render_options *options)
+{
+    otx_vec3 centre;
+    double radius;
+    otx_camera camera;
+
+    if (options->camera)
+        camera = *options->camera;
+    else
+    {
+        otx_scene_bounds(scene, &centre, &radius);
+        camera = otx_camera_see(
+            options->view, centre, radius,
+            (double)options->width / options->height, options->turn);
+    }
+    camera.eye = otx_tracer_inside(tracer, camera.eye);
+    camera.target = otx_tracer_inside(tracer, camera.target);
+    return otx_camera_aim(&camera, options->width, options->height);
+}
+
+static otx_status
+render_scene(
+    otx_run *run, const otx_scene *scene, const otx_render_options *options,
+    otx_image *out)
+{
+    otx_tracer *tracer;
+    otx_camera_frame frame;
+    otx_shade shade;
+
+    OTX_TRY(otx_tracer_create(run, scene, &tracer));
+    frame = aim_camera(scene, tracer, options);
+    OTX_TRY(otx_shade_prepare(run, scene, options, tracer, &frame, &shade));
+    OTX_TRY(otx_image_create(
+        run, run->arena, options->width, options->height, 4, out));
+    return render_tiles(run, &shade, out);
+}
+
+otx_status
+otx_render(
+    otx_run *run, const otx_scene *scene, const otx_render_options *options,
+    otx_image *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    otx_status status;
+
+    *out = (otx_image){0};
+    OTX_TRY(check_options(run, options));
+    OTX_TRY(otx_scene_validate(run, scene));
+    status = render_scene(run, scene, options, out);
+    otx_arena_release(run->scratch, mark);
+    if (status != OSDTEX_OK)
+        *out = (otx_image){0};
+    return status;
+}

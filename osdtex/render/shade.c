@@ -1,0 +1,372 @@
+/* shade.c -- what is shown, times how it is lit. */
+#include "render/shade.h"
+
+#include "render/distortion.h"
+#include "render/island.h"
+#include "render/tint.h"
+
+#include <string.h>
+
+enum
+{
+    /* Light rays of each kind to a pixel, at least. */
+    PIXEL_RAYS = 16
+};
+
+/* Corners whose normal is further than this from the triangle's lie on a
+ * crease and are shaded flat: the cosine of 50 degrees. */
+static const double CREASE = 0.643;
+
+static otx_status
+prepare_textures(otx_run *run, otx_shade *out)
+{
+    const int32_t count = out->scene->texture_count;
+    otx_texture *textures = OTX_NEW(run->scratch, otx_texture, count);
+
+    if (!textures)
+        return otx_fail_memory(run, "render");
+    for (int32_t i = 0; i < count; ++i)
+        OTX_TRY(otx_texture_create(
+            run, run->scratch, &out->scene->textures[i], &textures[i]));
+    out->textures = textures;
+    return OSDTEX_OK;
+}
+
+static otx_status
+prepare_islands(otx_run *run, otx_shade *out)
+{
+    const otx_scene *scene = out->scene;
+    const int32_t *twin;
+
+    if (out->options->show == OTX_SHOW_PATCHES && scene->face_patch)
+    {
+        out->patch = scene->face_patch;
+        return OSDTEX_OK;
+    }
+    OTX_TRY(otx_island_pair(run, run->scratch, scene, &twin));
+    OTX_TRY(otx_island_seams(run, run->scratch, scene, twin, &out->seam));
+    if (out->options->show == OTX_SHOW_PATCHES)
+        OTX_TRY(otx_island_label(
+            run, run->scratch, scene, twin, out->seam, &out->patch));
+    return OSDTEX_OK;
+}
+
+static otx_status
+prepare_stretch(otx_run *run, otx_shade *out)
+{
+    const otx_vec2 fitting = {0.0, 0.0};
+    int64_t flipped;
+    double mean;
+
+    out->stretch = out->scene->face_stretch;
+    if (!out->stretch)
+        OTX_TRY(otx_distortion_faces(
+            run, run->scratch, out->scene, fitting, &out->stretch));
+    if (!out->stretch)
+        return OSDTEX_OK;
+    mean = otx_distortion_mean(out->scene, out->stretch, &flipped);
+    otx_note(
+        run, OSDTEX_SEVERITY_INFO, "render", OTX_NOWHERE,
+        "mean stretch %.3f (white is 1, blue 0.5, red 2); %lld faces flipped "
+        "or without area in UV (magenta)",
+        mean, (long long)flipped);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_shade_prepare(
+    otx_run *run, const otx_scene *scene, const otx_render_options *options,
+    const otx_tracer *tracer, const otx_camera_frame *frame, otx_shade *out)
+{
+    const int32_t per_pixel = options->samples * options->samples;
+
+    *out = (otx_shade){
+        .scene = scene,
+        .options = options,
+        .tracer = tracer,
+        .frame = *frame,
+        .light = otx_light_create(tracer, frame, !options->no_shadows),
+        .light_rays = (PIXEL_RAYS + per_pixel - 1) / per_pixel,
+    };
+    switch (options->show)
+    {
+    case OTX_SHOW_SEAMS:
+        OTX_TRY(prepare_islands(run, out));
+        return prepare_textures(run, out);
+    case OTX_SHOW_TEXTURE:
+        return prepare_textures(run, out);
+    case OTX_SHOW_PATCHES:
+        return prepare_islands(run, out);
+    case OTX_SHOW_STRETCH:
+        return prepare_stretch(run, out);
+    default:
+        return OSDTEX_OK;
+    }
+}
+
+static otx_vec2
+corner_uv(const otx_scene *scene, int32_t corner)
+{
+    const float *uv = scene->uvs + 2 * (size_t)corner;
+
+    return (otx_vec2){uv[0], uv[1]};
+}
+
+static otx_vec2
+hit_uv(const otx_scene *scene, const otx_hit *hit)
+{
+    otx_vec2 uv = {0.0, 0.0};
+
+    for (int32_t i = 0; i < 3; ++i)
+        uv = otx_vec2_add(
+            uv,
+            otx_vec2_scale(hit->weights[i], corner_uv(scene, hit->corners[i])));
+    return uv;
+}
+
+/* How the hit moves over its triangle's plane when the ray's direction D, that
+ * of the frame and not unit, moves by `step`: P = eye + t D with
+ * N . (P - P0) = 0 gives dP = t (step - D (N . step) / (N . D)). */
+static otx_vec3
+move_on_plane(const otx_hit *hit, otx_vec3 eye, otx_vec3 forward, otx_vec3 step)
+{
+    const otx_vec3 to_hit = otx_vec3_sub(hit->at, eye);
+    const double depth = otx_vec3_dot(to_hit, forward);
+    const double approach = otx_vec3_dot(hit->normal, to_hit);
+    const double slide = otx_vec3_dot(hit->normal, step);
+
+    return otx_vec3_mix(depth, step, -depth * slide / approach, to_hit);
+}
+
+/* The change of UV along `move`, which lies in the triangle's plane. */
+static otx_vec2
+uv_along(const otx_scene *scene, const otx_hit *hit, otx_vec3 move)
+{
+    const otx_vec3 e1 = otx_vec3_sub(hit->points[1], hit->points[0]);
+    const otx_vec3 e2 = otx_vec3_sub(hit->points[2], hit->points[0]);
+    const otx_vec3 n = otx_vec3_cross(e1, e2);
+    const double area_sq = otx_vec3_dot(n, n);
+    const double b1 = otx_vec3_dot(otx_vec3_cross(move, e2), n) / area_sq;
+    const double b2 = otx_vec3_dot(otx_vec3_cross(e1, move), n) / area_sq;
+    const otx_vec2 uv0 = corner_uv(scene, hit->corners[0]);
+    const otx_vec2 uv1 = corner_uv(scene, hit->corners[1]);
+    const otx_vec2 uv2 = corner_uv(scene, hit->corners[2]);
+
+    return otx_vec2_add(
+        otx_vec2_scale(b1, otx_vec2_sub(uv1, uv0)),
+        otx_vec2_scale(b2, otx_vec2_sub(uv2, uv0)));
+}
+
+static void
+set_grey(float value, float rgb[3])
+{
+    rgb[0] = rgb[1] = rgb[2] = value;
+}
+
+static void
+texture_color(const otx_shade *shade, const otx_hit *hit, float rgb[3])
+{
+    const otx_scene *scene = shade->scene;
+    const otx_camera_frame *frame = &shade->frame;
+    const int32_t t = scene->face_texture ? scene->face_texture[hit->face] : 0;
+    const double share = 1.0 / shade->options->samples;
+
+    if (!scene->uvs || t < 0 || t >= scene->texture_count)
+    {
+        set_grey(0.5f, rgb);
+        return;
+    }
+
+    const otx_vec3 x = otx_vec3_scale(
+        share, move_on_plane(hit, frame->eye, frame->forward, frame->right));
+    const otx_vec3 y = otx_vec3_scale(
+        share, move_on_plane(hit, frame->eye, frame->forward, frame->up));
+
+    otx_texture_filter(
+        &shade->textures[t], hit_uv(scene, hit), uv_along(scene, hit, x),
+        uv_along(scene, hit, y), rgb);
+}
+
+static double
+distance_to_segment(otx_vec2 p, otx_vec2 a, otx_vec2 b)
+{
+    const otx_vec2 along = otx_vec2_sub(b, a);
+    const double length_sq = otx_vec2_dot(along, along);
+    const double t = length_sq > 0.0
+                         ? otx_vec2_dot(otx_vec2_sub(p, a), along) / length_sq
+                         : 0.0;
+    const otx_vec2 near = otx_vec2_lerp(a, b, fmin(fmax(t, 0.0), 1.0));
+
+    return otx_vec2_length(otx_vec2_sub(p, near));
+}
+
+static bool
+project_corner(const otx_shade *shade, int32_t corner, otx_vec2 *out)
+{
+    const otx_scene *scene = shade->scene;
+    const otx_vec3 p = otx_vec3_load(scene->points, scene->face_verts[corner]);
+
+    return otx_camera_project(
+        &shade->frame, otx_tracer_inside(shade->tracer, p), out);
+}
+
+/* Whether the sample is on the line drawn for a seam of its face. Distances
+ * are taken in the picture, so that lines are as wide wherever they run. */
+static bool
+is_on_seam(const otx_shade *shade, int32_t face, otx_vec2 at)
+{
+    const int32_t first = shade->scene->face_first[face];
+    const int32_t end = shade->scene->face_first[face + 1];
+
+    for (int32_t c = first; c < end; ++c)
+    {
+        otx_vec2 a, b;
+
+        if (!shade->seam[c] || !project_corner(shade, c, &a) ||
+            !project_corner(shade, c + 1 < end ? c + 1 : first, &b))
+            continue;
+        if (distance_to_segment(at, a, b) < 0.5 * shade->options->seam_width)
+            return true;
+    }
+    return false;
+}
+
+static void
+seam_color(
+    const otx_shade *shade, const otx_hit *hit, otx_vec2 at, float rgb[3])
+{
+    texture_color(shade, hit, rgb);
+
+    const double grey = (rgb[0] + 2.0 * rgb[1] + rgb[2]) / 4.0;
+    const double pale = 0.42 + 0.35 * fmin(fmax(grey, 0.0), 1.0);
+
+    if (is_on_seam(shade, hit->face, at))
+        set_grey(0.012f, rgb);
+    else
+        set_grey((float)pale, rgb);
+}
+
+static otx_vec3
+corner_normal(const otx_scene *scene, int32_t corner, otx_vec3 face)
+{
+    const int32_t v = scene->face_verts[corner];
+    otx_vec3 n;
+
+    if (scene->corner_normals)
+        n = otx_vec3_load(scene->corner_normals, corner);
+    else if (scene->vert_normals)
+        n = otx_vec3_load(scene->vert_normals, v);
+    else
+        return face;
+    n = otx_vec3_unit(n);
+    /* Written so that NaN is flat too. */
+    if (!(otx_vec3_dot(n, face) > CREASE))
+        return face;
+    return n;
+}
+
+/* Unit, on the outside by the winding. */
+static otx_vec3
+hit_normal(const otx_scene *scene, const otx_hit *hit)
+{
+    otx_vec3 sum = {0.0, 0.0, 0.0};
+
+    for (int32_t i = 0; i < 3; ++i)
+        sum = otx_vec3_add(
+            sum, otx_vec3_scale(
+                     hit->weights[i],
+                     corner_normal(scene, hit->corners[i], hit->normal)));
+    return otx_vec3_unit(sum);
+}
+
+static void
+uv_color(const otx_scene *scene, const otx_hit *hit, float rgb[3])
+{
+    otx_vec2 uv;
+
+    set_grey(0.0f, rgb);
+    if (!scene->uvs)
+        return;
+    uv = hit_uv(scene, hit);
+    rgb[0] = (float)(uv.x - floor(uv.x));
+    rgb[1] = (float)(uv.y - floor(uv.y));
+}
+
+static void
+surface_color(
+    const otx_shade *shade, const otx_hit *hit, otx_vec2 at, otx_vec3 normal,
+    float rgb[3])
+{
+    switch (shade->options->show)
+    {
+    case OTX_SHOW_TEXTURE:
+        texture_color(shade, hit, rgb);
+        return;
+    case OTX_SHOW_PATCHES:
+        otx_tint_patch(shade->patch[hit->face], rgb);
+        return;
+    case OTX_SHOW_STRETCH:
+        set_grey(0.18f, rgb);
+        if (shade->stretch)
+            otx_tint_stretch(shade->stretch[hit->face], rgb);
+        return;
+    case OTX_SHOW_SEAMS:
+        seam_color(shade, hit, at, rgb);
+        return;
+    case OTX_SHOW_UV:
+        uv_color(shade->scene, hit, rgb);
+        return;
+    case OTX_SHOW_NORMALS:
+        rgb[0] = (float)(0.5 + 0.5 * normal.x);
+        rgb[1] = (float)(0.5 + 0.5 * normal.y);
+        rgb[2] = (float)(0.5 + 0.5 * normal.z);
+        return;
+    default:
+        set_grey(0.5f, rgb);
+        return;
+    }
+}
+
+/* UVs and normals are numbers, which light would falsify. */
+static bool
+is_lit(const otx_render_options *options)
+{
+    return !options->unlit && options->show != OTX_SHOW_UV &&
+           options->show != OTX_SHOW_NORMALS;
+}
+
+static double
+light_at_hit(
+    const otx_shade *shade, const otx_hit *hit, const otx_shade_sample *sample,
+    otx_vec3 normal)
+{
+    const bool behind = otx_vec3_dot(hit->normal, sample->direction) > 0.0;
+    const double side = behind ? -1.0 : 1.0;
+    const int32_t rays = shade->light_rays;
+    const int32_t n = shade->options->samples;
+    double sum = 0.0;
+
+    for (int32_t i = 0; i < rays; ++i)
+        sum += otx_light_at(
+            &shade->light, hit->at, otx_vec3_scale(side, hit->normal),
+            otx_vec3_scale(side, normal), sample->number * rays + i,
+            n * n * rays, sample->pixel);
+    return sum / rays;
+}
+
+void
+otx_shade_hit(
+    const otx_shade *shade, const otx_hit *hit, const otx_shade_sample *sample,
+    float rgb[3])
+{
+    const otx_vec3 normal = hit_normal(shade->scene, hit);
+
+    surface_color(shade, hit, sample->at, normal, rgb);
+    if (!is_lit(shade->options))
+        return;
+
+    const double light = light_at_hit(shade, hit, sample, normal);
+
+    for (int32_t c = 0; c < 3; ++c)
+        rgb[c] = (float)(light * rgb[c]);
+}

@@ -1,0 +1,45 @@
+/* shade.h -- the colour of a point of the model, and the light on it. */
+#ifndef OTX_RENDER_SHADE_H
+#define OTX_RENDER_SHADE_H
+
+#include "render/light.h"
+#include "render/render.h"
+#include "render/texture.h"
+#include "render/tracer.h"
+
+/* What all samples of a picture share. Lengths are in the tracer's units. */
+typedef struct otx_shade
+{
+    const otx_scene *scene;
+    const otx_render_options *options;
+    const otx_tracer *tracer;
+    otx_camera_frame frame;
+    otx_light light;
+    const otx_texture *textures; /* [scene->texture_count] */
+    /* Made only when they are shown. */
+    const int32_t *patch;
+    const float *stretch;
+    const uint8_t *seam;
+    int32_t light_rays; /* of each kind to a sample */
+} otx_shade;
+
+/* One sample. */
+typedef struct otx_shade_sample
+{
+    otx_vec2 at;        /* in the picture, pixels */
+    otx_vec3 direction; /* of its ray */
+    int32_t number;     /* in its pixel */
+    uint64_t pixel;     /* hash key of the pixel */
+} otx_shade_sample;
+
+/* Makes mip levels, islands and stretch as `options->show` asks for, in
+ * run->scratch. Notes the mean stretch where it is shown. MEMORY. */
+otx_status otx_shade_prepare(
+    otx_run *run, const otx_scene *scene, const otx_render_options *options,
+    const otx_tracer *tracer, const otx_camera_frame *frame, otx_shade *out);
+
+void otx_shade_hit(
+    const otx_shade *shade, const otx_hit *hit, const otx_shade_sample *sample,
+    float rgb[3]);
+
+#endif
