@@ -57,7 +57,7 @@ typedef struct otx_cage
 
     int32_t crease_count;
     const int32_t *crease_verts;   /* [crease_count * 2], existing edges */
-    const float *crease_sharpness; /* [crease_count], (0, 10] */
+    const float *crease_sharpness; /* [0, 10]; of an edge the last holds */
     int32_t corner_tag_count;
     const int32_t *corner_tag_verts; /* [corner_tag_count] */
     const float *corner_tag_sharpness;

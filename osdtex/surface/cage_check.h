@@ -1,0 +1,38 @@
+/* cage_check.h -- the checks that otx_cage_build makes, in order.
+ *
+ * Each looks at the whole mesh and reports every finding (like ones fold into
+ * one with a count), then returns the status of the first. Each relies on the
+ * ones before it. */
+#ifndef OTX_SURFACE_CAGE_CHECK_H
+#define OTX_SURFACE_CAGE_CHECK_H
+
+#include "surface/cage.h"
+#include "surface/topology.h"
+
+/* Where a face or a vertex of `input` is, for findings. */
+otx_where otx_cage_check_at_face(const otx_cage_input *input, int32_t face);
+otx_where otx_cage_check_at_vertex(const otx_cage_input *input, int32_t vertex);
+
+/* There are faces; each has 3 corners or more, on different vertices that
+ * exist. With Loop each is a triangle. */
+otx_status otx_cage_check_faces(
+    otx_run *run, const otx_cage_input *input, otx_scheme scheme);
+
+/* Positions are finite and of a size that squares without overflow. */
+otx_status otx_cage_check_points(otx_run *run, const otx_cage_input *input);
+
+/* Every corner has a UV that exists and is finite. A warning when some have
+ * none: *usable says whether the UVs can be kept. */
+otx_status
+otx_cage_check_uvs(otx_run *run, const otx_cage_input *input, bool *usable);
+
+/* One or two faces at every edge, wound alike, and one fan of faces at every
+ * vertex, of at most OTX_CAGE_VALENCE_MAX edges. Warns of vertices without
+ * faces. */
+otx_status otx_cage_check_manifold(
+    otx_run *run, const otx_cage_input *input, const otx_topology *topology);
+
+/* Warns of faces without area. */
+void otx_cage_check_areas(otx_run *run, const otx_cage_input *input);
+
+#endif
