@@ -77,8 +77,8 @@ typedef struct otx_exr_size
 } otx_exr_size;
 
 /* Adds `path` to `set` and writes its header. The writer lives in run->scratch
- * and closes the file when that is released. options->levels is not looked at:
- * every level is put by the caller. */
+ * and closes the file when that is released; `path` must live as long.
+ * options->levels is not looked at: every level is put by the caller. */
 otx_status otx_exr_begin(
     otx_run *run, otx_atomic_file_set *set, const char *path, otx_exr_size size,
     const otx_exr_options *options, otx_exr_writer **out);

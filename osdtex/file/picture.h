@@ -66,8 +66,12 @@ typedef struct otx_picture
  * MEMORY  */
 otx_status otx_picture_read(otx_run *run, const char *path, otx_picture *out);
 
-/* For the readers of one format: checks the limits and creates out->image.
- * Sizes are what the file claims, in full, so that no cast can hide them. */
+/* For the readers of one format: FORMAT or LIMIT unless the size is one that
+ * is read. It is what the file claims, in full, so that no cast can hide it. */
+otx_status otx_picture_check_size(
+    otx_run *run, const char *path, int64_t width, int64_t height);
+
+/* The same, and creates out->image. */
 otx_status otx_picture_create(
     otx_run *run, const char *path, int64_t width, int64_t height,
     int32_t channels, otx_picture *out);

@@ -1,0 +1,634 @@
+/* exr_read.c -- EXR through OpenEXR's C core.
+ *
+ * The core reads and decompresses chunks; samples are unpacked here. Its own
+ * unpack routines are chosen by heuristics over channel layout, and its
+ * buffers are sized by what a header says: unpacking by hand lets every bound
+ * be checked against the chunk that was really read. */
+#include "file/exr.h"
+
+/* The table of the C++ library is not linked. */
+#define IMATH_HALF_NO_LOOKUP_TABLE
+#include <Imath/half.h>
+#include <openexr.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum
+{
+    NAMES_BYTES = 400,
+    MAX_BLOCK_BYTES = 1 << 29,
+    NONE = -1
+};
+
+typedef struct reader
+{
+    otx_run *run;
+    const char *path;
+    exr_context_t file;
+    exr_decode_pipeline_t pipeline;
+    bool pipeline_is_open;
+    otx_picture *out;
+    int part;
+    exr_compression_t compression;
+    /* Sources of R, G, B, A in the part's channel list; A may be NONE. */
+    int32_t channels[4];
+} reader;
+
+static otx_where
+where_of(const char *path)
+{
+    otx_where where = OTX_NOWHERE;
+
+    where.file = path;
+    return where;
+}
+
+/* Without a handler the core prints. What it says may quote bytes of the file,
+ * so only its fixed messages are passed on. */
+static void
+on_error(exr_const_context_t file, exr_result_t code, const char *message)
+{
+    (void)file;
+    (void)code;
+    (void)message;
+}
+
+static otx_status
+reader_failed(const reader *r, exr_result_t code)
+{
+    const char *reason = exr_get_default_error_message(code);
+
+    switch (code)
+    {
+    case EXR_ERR_OUT_OF_MEMORY:
+        return otx_fail_memory(r->run, "picture");
+    case EXR_ERR_FILE_ACCESS:
+        return otx_fail(
+            r->run, OSDTEX_ERROR_IO, "picture", where_of(r->path),
+            "the EXR cannot be opened (%s)", reason);
+    case EXR_ERR_FEATURE_NOT_IMPLEMENTED:
+        return otx_fail(
+            r->run, OSDTEX_ERROR_SUPPORT, "picture", where_of(r->path),
+            "the EXR is of a kind that is not read (%s); convert it to ZIP "
+            "compressed scanlines",
+            reason);
+    default:
+        return otx_fail(
+            r->run, OSDTEX_ERROR_FORMAT, "picture", where_of(r->path),
+            "the EXR is damaged or cut short (%s); write it again", reason);
+    }
+}
+
+static void
+reader_close(void *object)
+{
+    reader *r = object;
+
+    if (r->pipeline_is_open)
+        exr_decoding_destroy(r->file, &r->pipeline);
+    if (r->file)
+        exr_finish(&r->file);
+}
+
+static otx_status
+reader_open(reader *r)
+{
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    exr_result_t code;
+
+    setup.error_handler_fn = on_error;
+    /* Rebuilding a damaged offset table means to search the whole file. */
+    setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION |
+                  EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE;
+    code = exr_start_read(&r->file, r->path, &setup);
+    return code == EXR_ERR_SUCCESS ? OSDTEX_OK : reader_failed(r, code);
+}
+
+/* ---- which part and which channels ------------------------------------- */
+
+/* Index of the channel `layer` + `name`, or NONE. `layer` has `length` bytes,
+ * its dot included. */
+static int32_t
+find_channel(
+    const exr_attr_chlist_t *list, const char *layer, size_t length,
+    const char *name)
+{
+    for (int32_t i = 0; i < list->num_channels; ++i)
+    {
+        const char *entry = list->entries[i].name.str;
+
+        if (strncmp(entry, layer, length) == 0 &&
+            strcmp(entry + length, name) == 0)
+            return i;
+    }
+    return NONE;
+}
+
+/* Takes R, G, B (and A) of a layer. False when one of the three is missing. */
+static bool
+take_layer(
+    reader *r, const exr_attr_chlist_t *list, const char *layer, size_t length)
+{
+    static const char *const names[4] = {"R", "G", "B", "A"};
+
+    for (int32_t i = 0; i < 4; ++i)
+        r->channels[i] = find_channel(list, layer, length, names[i]);
+    return r->channels[0] != NONE && r->channels[1] != NONE &&
+           r->channels[2] != NONE;
+}
+
+/* Luminance alone. With chroma (RY, BY) it is only part of a colour. */
+static bool
+take_gray(reader *r, const exr_attr_chlist_t *list)
+{
+    const int32_t y = find_channel(list, "", 0, "Y");
+
+    if (y == NONE || find_channel(list, "", 0, "RY") != NONE)
+        return false;
+    r->channels[0] = r->channels[1] = r->channels[2] = y;
+    r->channels[3] = find_channel(list, "", 0, "A");
+    r->out->is_gray = true;
+    return true;
+}
+
+/* The first layer, in the order of the file, that has R, G and B. */
+static bool
+take_any_layer(reader *r, const exr_attr_chlist_t *list)
+{
+    for (int32_t i = 0; i < list->num_channels; ++i)
+    {
+        const char *name = list->entries[i].name.str;
+        const char *dot = strrchr(name, '.');
+        char *layer;
+
+        if (!dot || !take_layer(r, list, name, (size_t)(dot + 1 - name)))
+            continue;
+        layer = otx_arena_strdup(r->run->arena, name);
+        if (layer)
+            layer[dot - name] = '\0';
+        r->out->layer = layer;
+        return layer != NULL;
+    }
+    return false;
+}
+
+static bool
+part_is_flat(const reader *r, int part)
+{
+    exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
+
+    return exr_get_storage(r->file, part, &storage) == EXR_ERR_SUCCESS &&
+           (storage == EXR_STORAGE_SCANLINE || storage == EXR_STORAGE_TILED);
+}
+
+/* What is there, for the message that says it is not what is needed. Bytes
+ * that are not printable ASCII become '?'. */
+static void
+list_channels(const reader *r, int part_count, char text[NAMES_BYTES])
+{
+    const exr_attr_chlist_t *list = NULL;
+    size_t used = 0;
+
+    text[0] = '\0';
+    for (int part = 0; part < part_count; ++part)
+    {
+        if (exr_get_channels(r->file, part, &list) != EXR_ERR_SUCCESS)
+            continue;
+        for (int32_t i = 0; i < list->num_channels; ++i)
+        {
+            const int n = snprintf(
+                text + used, NAMES_BYTES - used, "%s%s", used > 0 ? ", " : "",
+                list->entries[i].name.str);
+
+            if (n < 0 || (size_t)n >= NAMES_BYTES - used)
+                break;
+            used += (size_t)n;
+        }
+    }
+    for (char *c = text; *c; ++c)
+        if (*c < ' ' || *c > '~')
+            *c = '?';
+}
+
+static otx_status
+no_color(const reader *r, int part_count)
+{
+    char names[NAMES_BYTES];
+    bool deep = true;
+
+    for (int part = 0; part < part_count; ++part)
+        deep = deep && !part_is_flat(r, part);
+    if (deep)
+        return otx_fail(
+            r->run, OSDTEX_ERROR_SUPPORT, "picture", where_of(r->path),
+            "the EXR is deep; flatten it, for example with oiiotool --flatten");
+    list_channels(r, part_count, names);
+    return otx_fail(
+        r->run, OSDTEX_ERROR_SUPPORT, "picture", where_of(r->path),
+        "the EXR has no R, G, B, no Y alone and no layer with R, G, B, only "
+        "%s; rename or select channels, for example with oiiotool --ch",
+        names);
+}
+
+/* The first flat part with colour. */
+static otx_status
+choose_part(reader *r)
+{
+    const exr_attr_chlist_t *list = NULL;
+    int part_count = 0;
+
+    exr_get_count(r->file, &part_count);
+    for (r->part = 0; r->part < part_count; ++r->part)
+        if (part_is_flat(r, r->part) &&
+            exr_get_channels(r->file, r->part, &list) == EXR_ERR_SUCCESS &&
+            (take_layer(r, list, "", 0) || take_gray(r, list) ||
+             take_any_layer(r, list)))
+            break;
+    if (r->part == part_count)
+        return no_color(r, part_count);
+    r->out->part = r->part;
+    if (part_count > 1)
+        otx_note(
+            r->run, OSDTEX_SEVERITY_INFO, "picture", where_of(r->path),
+            "the EXR has %d parts; part %d is the first with colour and is "
+            "used",
+            part_count, r->part);
+    if (r->out->layer)
+        otx_note(
+            r->run, OSDTEX_SEVERITY_INFO, "picture", where_of(r->path),
+            "the EXR has no plain R, G, B; layer \"%s\" is used",
+            r->out->layer);
+    return OSDTEX_OK;
+}
+
+/* Subsampled colours would need a reconstruction filter; alpha alone is
+ * dropped. */
+static otx_status
+check_channels(reader *r)
+{
+    const exr_attr_chlist_t *list = NULL;
+
+    exr_get_channels(r->file, r->part, &list);
+    for (int32_t i = 0; i < 4; ++i)
+    {
+        const exr_attr_chlist_entry_t *entry;
+
+        if (r->channels[i] == NONE)
+            continue;
+        entry = &list->entries[r->channels[i]];
+        if (entry->x_sampling == 1 && entry->y_sampling == 1)
+            continue;
+        if (i < 3)
+            return otx_fail(
+                r->run, OSDTEX_ERROR_SUPPORT, "picture", where_of(r->path),
+                "the EXR has subsampled colours; convert it to full "
+                "resolution R, G, B");
+        r->channels[i] = NONE;
+    }
+    r->out->bits =
+        list->entries[r->channels[0]].pixel_type == EXR_PIXEL_HALF ? 16 : 32;
+    return OSDTEX_OK;
+}
+
+static otx_status
+check_compression(reader *r)
+{
+    const exr_result_t code =
+        exr_get_compression(r->file, r->part, &r->compression);
+
+    if (code != EXR_ERR_SUCCESS)
+        return reader_failed(r, code);
+    if (r->compression == EXR_COMPRESSION_DWAA ||
+        r->compression == EXR_COMPRESSION_DWAB)
+        return otx_fail(
+            r->run, OSDTEX_ERROR_SUPPORT, "picture", where_of(r->path),
+            "the EXR is compressed with %s, which is not read; convert it "
+            "with: oiiotool IN.exr --compression zip -o OUT.exr",
+            r->compression == EXR_COMPRESSION_DWAA ? "DWAA" : "DWAB");
+    return OSDTEX_OK;
+}
+
+/* ---- header ------------------------------------------------------------- */
+
+/* A string attribute as printable ASCII in the run's arena, or NULL. */
+static const char *
+read_text(const reader *r, const char *name)
+{
+    const char *text = NULL;
+    int32_t length = 0;
+    char *copy;
+
+    if (exr_attr_get_string(r->file, r->part, name, &length, &text) !=
+            EXR_ERR_SUCCESS ||
+        !text || length <= 0)
+        return NULL;
+    copy = OTX_ZNEW(r->run->arena, char, (size_t)length + 1);
+    if (!copy)
+        return NULL;
+    for (int32_t i = 0; i < length && text[i]; ++i)
+        copy[i] = text[i] < ' ' || text[i] > '~' ? '?' : text[i];
+    return copy;
+}
+
+static void
+read_metadata(reader *r)
+{
+    exr_attr_chromaticities_t c;
+    otx_picture *out = r->out;
+
+    out->is_float = true;
+    out->alpha_is_premultiplied = r->channels[3] != NONE;
+    out->interop_id = read_text(r, "colorInteropID");
+    out->oiio_space = read_text(r, "oiio:ColorSpace");
+    if (exr_attr_get_chromaticities(r->file, r->part, "chromaticities", &c) !=
+        EXR_ERR_SUCCESS)
+        return;
+    const float values[8] = {c.red_x,  c.red_y,  c.green_x, c.green_y,
+                             c.blue_x, c.blue_y, c.white_x, c.white_y};
+
+    out->has_chromaticities = true;
+    memcpy(out->chromaticities, values, sizeof values);
+}
+
+static otx_picture_window
+window_of(exr_attr_box2i_t box)
+{
+    return (otx_picture_window){box.min.x, box.min.y, box.max.x, box.max.y};
+}
+
+static int32_t
+larger(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
+}
+
+static int32_t
+smaller(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* What is shown of what is stored. */
+static otx_picture_window
+visible_window(const otx_picture *p)
+{
+    return (otx_picture_window){
+        larger(p->data_window.x_min, p->display_window.x_min),
+        larger(p->data_window.y_min, p->display_window.y_min),
+        smaller(p->data_window.x_max, p->display_window.x_max),
+        smaller(p->data_window.y_max, p->display_window.y_max)};
+}
+
+static int64_t
+span_of(int32_t min, int32_t max)
+{
+    return (int64_t)max - min + 1;
+}
+
+static otx_status
+check_windows(const reader *r)
+{
+    const otx_picture_window data = r->out->data_window;
+    const otx_picture_window display = r->out->display_window;
+    const otx_picture_window visible = visible_window(r->out);
+
+    OTX_TRY(otx_picture_check_size(
+        r->run, r->path, span_of(data.x_min, data.x_max),
+        span_of(data.y_min, data.y_max)));
+    if (visible.x_min > visible.x_max || visible.y_min > visible.y_max)
+        return otx_fail(
+            r->run, OSDTEX_ERROR_FORMAT, "picture", where_of(r->path),
+            "no pixel of the EXR lies in its display window; reset the display "
+            "window");
+    if (memcmp(&visible, &display, sizeof visible) != 0)
+        otx_note(
+            r->run, OSDTEX_SEVERITY_WARNING, "picture", where_of(r->path),
+            "the EXR fills only a part of its display window; the picture is "
+            "that part, (%d, %d) to (%d, %d)",
+            visible.x_min, visible.y_min, visible.x_max, visible.y_max);
+    else if (memcmp(&visible, &data, sizeof visible) != 0)
+        otx_note(
+            r->run, OSDTEX_SEVERITY_INFO, "picture", where_of(r->path),
+            "the EXR has pixels beyond its display window; they are left out");
+    return OSDTEX_OK;
+}
+
+static otx_status
+read_windows(reader *r)
+{
+    exr_attr_box2i_t data, display;
+    exr_result_t code = exr_get_data_window(r->file, r->part, &data);
+
+    if (code == EXR_ERR_SUCCESS)
+        code = exr_get_display_window(r->file, r->part, &display);
+    if (code != EXR_ERR_SUCCESS)
+        return reader_failed(r, code);
+    r->out->data_window = window_of(data);
+    r->out->display_window = window_of(display);
+    OTX_TRY(check_windows(r));
+
+    const otx_picture_window visible = visible_window(r->out);
+
+    return otx_picture_create(
+        r->run, r->path, span_of(visible.x_min, visible.x_max),
+        span_of(visible.y_min, visible.y_max), r->channels[3] == NONE ? 3 : 4,
+        r->out);
+}
+
+/* ---- pixels ------------------------------------------------------------- */
+
+/* Buffers of the pipeline start at zero, so that what a damaged chunk leaves
+ * out is the same in every run, and absurd sizes are refused. */
+static void *
+alloc_zeroed(exr_transcoding_pipeline_buffer_id_t id, size_t bytes)
+{
+    (void)id;
+    return bytes <= MAX_BLOCK_BYTES ? calloc(1, bytes) : NULL;
+}
+
+static void
+free_zeroed(exr_transcoding_pipeline_buffer_id_t id, void *buffer)
+{
+    (void)id;
+    free(buffer);
+}
+
+static float
+load_sample(const uint8_t *at, uint16_t type)
+{
+    const uint16_t word = (uint16_t)(at[0] | at[1] << 8);
+    uint32_t quad;
+    float value;
+
+    if (type == EXR_PIXEL_HALF)
+        return imath_half_to_float(word);
+    quad = word | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+    if (type == EXR_PIXEL_UINT)
+        return (float)quad;
+    memcpy(&value, &quad, sizeof value);
+    return value;
+}
+
+/* One channel's row of a chunk, at pixel (x, y) of the data window's plane. */
+static void
+store_row(
+    const reader *r, int32_t channel, const uint8_t *at, int32_t x, int32_t y)
+{
+    const exr_coding_channel_info_t *info = &r->pipeline.channels[channel];
+    const otx_picture_window visible = visible_window(r->out);
+    const int32_t channels = r->out->image.channels;
+    const int32_t first = larger(x, visible.x_min);
+    const int32_t last = smaller(x + info->width - 1, visible.x_max);
+
+    if (y < visible.y_min || y > visible.y_max)
+        return;
+    for (int32_t c = 0; c < channels; ++c)
+    {
+        float *row = otx_picture_row(r->out, y - visible.y_min) + c;
+
+        if (r->channels[c] != channel)
+            continue;
+        for (int32_t i = first; i <= last; ++i)
+            row[(size_t)(i - visible.x_min) * (size_t)channels] = load_sample(
+                at + (size_t)(i - x) * (size_t)info->bytes_per_element,
+                info->data_type);
+    }
+}
+
+/* A decoded chunk holds, for each of its rows, each channel's samples in
+ * turn; subsampled channels only on their rows. */
+static bool
+unpack(const reader *r, int32_t x, int32_t y)
+{
+    const exr_decode_pipeline_t *p = &r->pipeline;
+    const uint8_t *at = p->unpacked_buffer;
+    uint64_t left = p->chunk.unpacked_size;
+
+    for (int32_t row = 0; row < p->chunk.height; ++row)
+        for (int32_t c = 0; c < p->channel_count; ++c)
+        {
+            const exr_coding_channel_info_t *info = &p->channels[c];
+            const uint64_t bytes =
+                (uint64_t)info->width * (uint64_t)info->bytes_per_element;
+
+            if (info->height == 0 || (y + row) % info->y_samples != 0)
+                continue;
+            if (!at || bytes > left)
+                return false;
+            store_row(r, c, at, x, y + row);
+            at += bytes;
+            left -= bytes;
+        }
+    return true;
+}
+
+/* Reads, decompresses and stores one chunk whose first pixel is (x, y). */
+static otx_status
+read_chunk(reader *r, const exr_chunk_info_t *chunk, int32_t x, int32_t y)
+{
+    const bool is_raw = r->compression == EXR_COMPRESSION_NONE;
+    exr_result_t code;
+
+    /* The core takes an empty chunk, or a short raw one, as a success. */
+    if (chunk->packed_size == 0 ||
+        (is_raw && chunk->packed_size != chunk->unpacked_size))
+        return reader_failed(r, EXR_ERR_CORRUPT_CHUNK);
+    if (chunk->unpacked_size > MAX_BLOCK_BYTES)
+        return otx_fail(
+            r->run, OSDTEX_ERROR_LIMIT, "picture", where_of(r->path),
+            "the EXR has tiles or blocks of %llu bytes; write it with smaller "
+            "tiles or fewer channels",
+            (unsigned long long)chunk->unpacked_size);
+    if (r->pipeline_is_open)
+        code = exr_decoding_update(r->file, r->part, chunk, &r->pipeline);
+    else
+    {
+        code = exr_decoding_initialize(r->file, r->part, chunk, &r->pipeline);
+        r->pipeline_is_open = code == EXR_ERR_SUCCESS;
+        r->pipeline.alloc_fn = alloc_zeroed;
+        r->pipeline.free_fn = free_zeroed;
+        if (code == EXR_ERR_SUCCESS)
+            code = exr_decoding_choose_default_routines(
+                r->file, r->part, &r->pipeline);
+        r->pipeline.unpack_and_convert_fn = NULL;
+    }
+    if (code == EXR_ERR_SUCCESS)
+        code = exr_decoding_run(r->file, r->part, &r->pipeline);
+    if (code == EXR_ERR_SUCCESS && !unpack(r, x, y))
+        code = EXR_ERR_CORRUPT_CHUNK;
+    return code == EXR_ERR_SUCCESS ? OSDTEX_OK : reader_failed(r, code);
+}
+
+static otx_status
+read_scanlines(reader *r)
+{
+    const otx_picture_window data = r->out->data_window;
+    int32_t rows = 0;
+    exr_result_t code = exr_get_scanlines_per_chunk(r->file, r->part, &rows);
+
+    if (code != EXR_ERR_SUCCESS || rows < 1)
+        return reader_failed(r, code);
+    for (int64_t y = data.y_min; y <= data.y_max; y += rows)
+    {
+        exr_chunk_info_t chunk = {0};
+
+        code = exr_read_scanline_chunk_info(r->file, r->part, (int)y, &chunk);
+        if (code != EXR_ERR_SUCCESS)
+            return reader_failed(r, code);
+        OTX_TRY(read_chunk(r, &chunk, data.x_min, (int32_t)y));
+    }
+    return OSDTEX_OK;
+}
+
+static otx_status
+read_tile(reader *r, int32_t x, int32_t y, int32_t width, int32_t height)
+{
+    const otx_picture_window data = r->out->data_window;
+    exr_chunk_info_t chunk = {0};
+    const exr_result_t code =
+        exr_read_tile_chunk_info(r->file, r->part, x, y, 0, 0, &chunk);
+
+    if (code != EXR_ERR_SUCCESS)
+        return reader_failed(r, code);
+    return read_chunk(
+        r, &chunk, data.x_min + x * width, data.y_min + y * height);
+}
+
+/* Level 0 of a tiled part, whatever its other levels. */
+static otx_status
+read_tiles(reader *r)
+{
+    const otx_picture_window data = r->out->data_window;
+    int32_t width = 0, height = 0;
+    const exr_result_t code =
+        exr_get_tile_sizes(r->file, r->part, 0, 0, &width, &height);
+
+    if (code != EXR_ERR_SUCCESS || width < 1 || height < 1)
+        return reader_failed(r, code);
+    for (int32_t y = 0; y <= (data.y_max - data.y_min) / height; ++y)
+        for (int32_t x = 0; x <= (data.x_max - data.x_min) / width; ++x)
+            OTX_TRY(read_tile(r, x, y, width, height));
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_exr_read(otx_run *run, const char *path, otx_picture *out)
+{
+    reader *r = OTX_ZNEW(run->scratch, reader, 1);
+    exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
+
+    if (!r || !otx_arena_defer(run->scratch, reader_close, r))
+        return otx_fail_memory(run, "picture");
+    r->run = run;
+    r->path = path;
+    r->out = out;
+    OTX_TRY(reader_open(r));
+    OTX_TRY(choose_part(r));
+    OTX_TRY(check_channels(r));
+    OTX_TRY(check_compression(r));
+    read_metadata(r);
+    OTX_TRY(read_windows(r));
+    exr_get_storage(r->file, r->part, &storage);
+    return storage == EXR_STORAGE_TILED ? read_tiles(r) : read_scanlines(r);
+}

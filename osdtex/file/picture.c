@@ -1,0 +1,180 @@
+/* picture.c -- which reader a file belongs to, and the rules for all of them.
+ */
+#include "file/picture.h"
+
+#include "file/exr.h"
+#include "file/jpeg_file.h"
+#include "file/png_file.h"
+#include "file/tiff_file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+enum
+{
+    MAGIC_BYTES = 8
+};
+
+/* One format: what its files begin with, and who reads them. */
+typedef struct format
+{
+    otx_picture_kind kind;
+    uint8_t magic[MAGIC_BYTES];
+    size_t magic_bytes;
+    otx_status (*read)(otx_run *run, const char *path, otx_picture *out);
+} format;
+
+static const format formats[] = {
+    {OTX_PICTURE_EXR, {0x76, 0x2F, 0x31, 0x01}, 4, otx_exr_read},
+    {OTX_PICTURE_PNG,
+     {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'},
+     8,
+     otx_png_file_read},
+    {OTX_PICTURE_TIFF, {'I', 'I', 42, 0}, 4, otx_tiff_file_read},
+    {OTX_PICTURE_TIFF, {'M', 'M', 0, 42}, 4, otx_tiff_file_read},
+    {OTX_PICTURE_TIFF, {'I', 'I', 43, 0}, 4, otx_tiff_file_read},
+    {OTX_PICTURE_TIFF, {'M', 'M', 0, 43}, 4, otx_tiff_file_read},
+    {OTX_PICTURE_JPEG, {0xFF, 0xD8, 0xFF}, 3, otx_jpeg_file_read},
+};
+
+static otx_where
+where_of(const char *path)
+{
+    otx_where where = OTX_NOWHERE;
+
+    where.file = path;
+    return where;
+}
+
+/* The first bytes of the file; fewer where it is shorter. */
+static otx_status
+read_magic(otx_run *run, const char *path, uint8_t magic[MAGIC_BYTES])
+{
+    FILE *file = fopen(path, "rb");
+
+    memset(magic, 0, MAGIC_BYTES);
+    if (!file)
+        return otx_fail(
+            run, OSDTEX_ERROR_IO, "picture", where_of(path),
+            "the picture cannot be opened (%s)", strerror(errno));
+    errno = 0;
+    fread(magic, 1, MAGIC_BYTES, file);
+
+    const bool failed = ferror(file);
+    const int reason = errno;
+
+    fclose(file);
+    if (failed)
+        return otx_fail(
+            run, OSDTEX_ERROR_IO, "picture", where_of(path),
+            "the picture cannot be read (%s)", strerror(reason));
+    return OSDTEX_OK;
+}
+
+static const format *
+find_format(const uint8_t magic[MAGIC_BYTES])
+{
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i)
+        if (memcmp(magic, formats[i].magic, formats[i].magic_bytes) == 0)
+            return &formats[i];
+    return NULL;
+}
+
+otx_status
+otx_picture_check_size(
+    otx_run *run, const char *path, int64_t width, int64_t height)
+{
+    if (width < 1 || height < 1)
+        return otx_fail(
+            run, OSDTEX_ERROR_FORMAT, "picture", where_of(path),
+            "the picture has no pixels; write it again");
+    if (width > OTX_IMAGE_MAX_SIDE || height > OTX_IMAGE_MAX_SIDE ||
+        width * height > OTX_PICTURE_MAX_PIXELS)
+        return otx_fail(
+            run, OSDTEX_ERROR_LIMIT, "picture", where_of(path),
+            "the picture claims %lld x %lld pixels, more than %d a side or %d "
+            "million in all; crop it or reduce its size",
+            (long long)width, (long long)height, OTX_IMAGE_MAX_SIDE,
+            OTX_PICTURE_MAX_PIXELS >> 20);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_picture_create(
+    otx_run *run, const char *path, int64_t width, int64_t height,
+    int32_t channels, otx_picture *out)
+{
+    OTX_TRY(otx_picture_check_size(run, path, width, height));
+    return otx_image_create(
+        run, run->arena, (int32_t)width, (int32_t)height, channels,
+        &out->image);
+}
+
+/* Finds the first value that is not finite, rows from the top. */
+static otx_status
+check_finite(otx_run *run, const char *path, const otx_picture *picture)
+{
+    const otx_image *image = &picture->image;
+
+    for (int32_t y = 0; y < image->height; ++y)
+    {
+        const float *row = otx_picture_row(picture, y);
+
+        for (int32_t i = 0; i < image->width * image->channels; ++i)
+            if (!isfinite(row[i]))
+                return otx_fail(
+                    run, OSDTEX_ERROR_NUMERIC, "picture", where_of(path),
+                    "pixel (%d, %d), counted from the top-left corner, is %s "
+                    "in channel %c; paint it out, or run oiiotool --fixnan "
+                    "box3 on the file",
+                    i / image->channels, y,
+                    isnan(row[i]) ? "not a number" : "infinite",
+                    "RGBA"[i % image->channels]);
+    }
+    return OSDTEX_OK;
+}
+
+static otx_status
+read_as(otx_run *run, const format *f, const char *path, otx_picture *out)
+{
+    OTX_TRY(f->read(run, path, out));
+    out->kind = f->kind;
+    out->has_alpha = out->image.channels == 4;
+    if (f->kind != OTX_PICTURE_EXR)
+    {
+        out->data_window = (otx_picture_window){
+            0, 0, out->image.width - 1, out->image.height - 1};
+        out->display_window = out->data_window;
+    }
+    return out->is_float ? check_finite(run, path, out) : OSDTEX_OK;
+}
+
+otx_status
+otx_picture_read(otx_run *run, const char *path, otx_picture *out)
+{
+    uint8_t magic[MAGIC_BYTES];
+
+    *out = (otx_picture){0};
+    OTX_TRY(read_magic(run, path, magic));
+
+    const format *f = find_format(magic);
+
+    if (!f)
+        return otx_fail(
+            run, OSDTEX_ERROR_FORMAT, "picture", where_of(path),
+            "the file is not an EXR, PNG, TIFF or JPEG picture; convert it to "
+            "one of these");
+
+    const otx_arena_mark results = otx_arena_here(run->arena);
+    const otx_arena_mark temporaries = otx_arena_here(run->scratch);
+    const otx_status status = read_as(run, f, path, out);
+
+    otx_arena_release(run->scratch, temporaries);
+    if (status != OSDTEX_OK)
+    {
+        otx_arena_release(run->arena, results);
+        *out = (otx_picture){0};
+    }
+    return status;
+}
