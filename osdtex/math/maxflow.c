@@ -1,26 +1,28 @@
-/* maxflow.c -- augmenting trees grown from both terminals [Boykov04].
+/* maxflow.c -- push-relabel, run backwards from the sink.
  *
- * Two trees, rooted at the source and at the sink, grow along arcs that have
- * capacity left until they touch. The path so found is filled; nodes whose
- * arc to their parent is now full are orphans and look for a new parent in
- * their tree, or leave it. The trees survive from path to path, which is why
- * this beats textbook augmentation on graphs of short paths.
+ * What the sink can take is a demand at its neighbours; demands are handed
+ * from node to node against the arcs, always to a node that is one step nearer
+ * to the source, until the source meets them or nobody can. Demands that
+ * cannot be met are simply left: the cut is known without turning the preflow
+ * into a flow. Running backwards makes the nodes that the source still reaches
+ * the smallest source side.
  *
- * Distances to the root carry the time at which they were known to be right
- * (the second heuristic of the paper's implementation), so that most searches
- * for a new parent end after a step. */
+ * Nodes are served first come, first served, and labels are made exact by a
+ * breadth-first pass now and then [Cherkassky97]. Measured beside it:
+ * augmenting trees [Boykov04] take half the time where every node has a
+ * terminal, but ten times as long where only the borders have (12 s against
+ * 1.1 s on 300 000 nodes), which is what the cut between two pictures looks
+ * like; serving the highest label first is several times slower on both. */
 #include "math/maxflow.h"
 
 #include <assert.h>
-#include <limits.h>
 
 enum
 {
-    NO_ARC = -1,   /* the node is in neither tree */
-    TERMINAL = -2, /* the parent is the terminal itself */
-    ORPHAN = -3,   /* the parent was lost and not yet replaced */
-    NO_NODE = -1,
-    COUNT_MAX = 1 << 30
+    NONE = -1,
+    COUNT_MAX = 1 << 30,
+    /* Cost of a relabelling, in arcs looked at, beside the node's own. */
+    RELABEL_WORK = 12
 };
 
 typedef struct edge
@@ -38,30 +40,23 @@ typedef struct arc
 
 typedef struct node
 {
-    int64_t excess;   /* left from the source, or if negative to the sink */
-    int32_t parent;   /* arc towards the root, or one of the above */
-    int32_t distance; /* arcs to the terminal, right at time `stamp` */
-    int32_t stamp;
-    int32_t next_active; /* NO_NODE: not queued; the last one names itself */
-    int32_t next_orphan;
-    bool sink; /* which tree, when parent is not NO_ARC */
+    int64_t balance; /* left from the source, or if negative a demand */
+    int32_t label;   /* lower bound of the arcs from the source, 1 for direct */
+    int32_t current; /* arcs before it lead nowhere at this label */
+    int32_t next;    /* in the queue of demands */
 } node;
-
-/* First in, first out, through a link in each node. */
-typedef struct queue
-{
-    int32_t first, last;
-} queue;
 
 struct otx_maxflow
 {
     int32_t node_count, edge_count, edge_capacity;
     node *nodes;
     edge *edges;
-    int32_t *arc_first; /* [node_count + 1] */
-    arc *arcs;          /* [edge_count * 2], by tail */
-    queue active, orphans;
-    int32_t time;
+    int32_t *arc_first;  /* [node_count + 1] */
+    arc *arcs;           /* [edge_count * 2], by tail */
+    int32_t *order;      /* [node_count], breadth first from the source */
+    int32_t first, last; /* of the queue, NONE when empty */
+    int32_t far;         /* label of nodes that the source does not reach */
+    int64_t work;        /* since labels were exact */
     int64_t flow;
 };
 
@@ -78,11 +73,14 @@ otx_maxflow_create(otx_arena *arena, int32_t node_count, int32_t edge_capacity)
         return NULL;
     graph->node_count = node_count;
     graph->edge_capacity = edge_capacity;
+    graph->far = node_count + 1;
     graph->nodes = OTX_ZNEW(arena, node, node_count);
+    graph->order = OTX_NEW(arena, int32_t, node_count);
     graph->arc_first = OTX_ZNEW(arena, int32_t, (int64_t)node_count + 1);
     graph->edges = OTX_NEW(arena, edge, edge_capacity);
     graph->arcs = OTX_NEW(arena, arc, 2 * (int64_t)edge_capacity);
-    if (!graph->nodes || !graph->arc_first || !graph->edges || !graph->arcs)
+    if (!graph->nodes || !graph->order || !graph->arc_first || !graph->edges ||
+        !graph->arcs)
         return NULL;
     return graph;
 }
@@ -94,12 +92,12 @@ otx_maxflow_terminal(
     node *n = &graph->nodes[index];
 
     /* What passes straight through the node is flow already. */
-    if (n->excess > 0)
-        from_source += n->excess;
+    if (n->balance > 0)
+        from_source += n->balance;
     else
-        to_sink -= n->excess;
+        to_sink -= n->balance;
     graph->flow += from_source < to_sink ? from_source : to_sink;
-    n->excess = from_source - to_sink;
+    n->balance = from_source - to_sink;
 }
 
 void
@@ -133,328 +131,149 @@ lay_out_arcs(otx_maxflow *graph)
 }
 
 static void
-activate(otx_maxflow *graph, int32_t index)
+enqueue(otx_maxflow *graph, int32_t index)
 {
-    if (graph->nodes[index].next_active != NO_NODE)
-        return;
-    if (graph->active.last == NO_NODE)
-        graph->active.first = index;
+    if (graph->first == NONE)
+        graph->first = index;
     else
-        graph->nodes[graph->active.last].next_active = index;
-    graph->active.last = index;
-    graph->nodes[index].next_active = index;
+        graph->nodes[graph->last].next = index;
+    graph->last = index;
+    graph->nodes[index].next = NONE;
 }
 
+/* Puts the nodes that the source reaches into `order`, nearest first, with
+ * their exact labels; returns how many they are. */
 static int32_t
-next_active(otx_maxflow *graph)
+label_from_source(otx_maxflow *graph)
 {
-    const int32_t index = graph->active.first;
+    int32_t count = 0;
 
-    if (index == NO_NODE)
-        return NO_NODE;
-
-    node *n = &graph->nodes[index];
-
-    if (n->next_active == index)
-        graph->active = (queue){NO_NODE, NO_NODE};
-    else
-        graph->active.first = n->next_active;
-    n->next_active = NO_NODE;
-    return index;
-}
-
-/* Orphans of the path that was filled go to the front: children of theirs,
- * which go to the back, may find their parents settled. */
-static void
-orphan_front(otx_maxflow *graph, int32_t index)
-{
-    graph->nodes[index].parent = ORPHAN;
-    graph->nodes[index].next_orphan = graph->orphans.first;
-    graph->orphans.first = index;
-    if (graph->orphans.last == NO_NODE)
-        graph->orphans.last = index;
-}
-
-static void
-orphan_back(otx_maxflow *graph, int32_t index)
-{
-    graph->nodes[index].parent = ORPHAN;
-    graph->nodes[index].next_orphan = NO_NODE;
-    if (graph->orphans.last == NO_NODE)
-        graph->orphans.first = index;
-    else
-        graph->nodes[graph->orphans.last].next_orphan = index;
-    graph->orphans.last = index;
-}
-
-static void
-plant_trees(otx_maxflow *graph)
-{
-    graph->active = graph->orphans = (queue){NO_NODE, NO_NODE};
     for (int32_t i = 0; i < graph->node_count; ++i)
     {
         node *n = &graph->nodes[i];
 
-        n->next_active = NO_NODE;
-        n->sink = n->excess < 0;
-        n->parent = n->excess != 0 ? TERMINAL : NO_ARC;
-        n->distance = 1;
+        n->current = graph->arc_first[i];
+        n->label = n->balance > 0 ? 1 : graph->far;
+        if (n->balance > 0)
+            graph->order[count++] = i;
     }
-    for (int32_t i = 0; i < graph->node_count; ++i)
-        if (graph->nodes[i].parent == TERMINAL)
-            activate(graph, i);
-}
-
-/* What may still pass along the arc from a node of the source tree outwards,
- * or of the sink tree inwards. */
-static int64_t
-room(const otx_maxflow *graph, int32_t arc_index, bool sink)
-{
-    const arc *a = &graph->arcs[arc_index];
-
-    return sink ? graph->arcs[a->sister].residual : a->residual;
-}
-
-/* Grows a tree from the active node `index`. Returns the arc, in the direction
- * of the flow, over which the trees touch, or NO_ARC when there is none. */
-static int32_t
-grow(otx_maxflow *graph, int32_t index)
-{
-    const node *from = &graph->nodes[index];
-
-    for (int32_t k = graph->arc_first[index]; k < graph->arc_first[index + 1];
-         ++k)
+    for (int32_t done = 0; done < count; ++done)
     {
-        if (room(graph, k, from->sink) == 0)
-            continue;
+        const int32_t i = graph->order[done];
 
-        const int32_t other = graph->arcs[k].head;
-        const int32_t back = graph->arcs[k].sister;
-        node *to = &graph->nodes[other];
+        for (int32_t k = graph->arc_first[i]; k < graph->arc_first[i + 1]; ++k)
+        {
+            const arc *a = &graph->arcs[k];
 
-        if (to->parent == NO_ARC)
-        {
-            to->sink = from->sink;
-            to->parent = back;
-            to->stamp = from->stamp;
-            to->distance = from->distance + 1;
-            activate(graph, other);
-        }
-        else if (to->sink != from->sink)
-            return from->sink ? back : k;
-        else if (to->stamp <= from->stamp && to->distance > from->distance)
-        {
-            to->parent = back; /* a shorter way to the root */
-            to->stamp = from->stamp;
-            to->distance = from->distance + 1;
+            if (a->residual == 0 || graph->nodes[a->head].label != graph->far)
+                continue;
+            graph->nodes[a->head].label = graph->nodes[i].label + 1;
+            graph->order[count++] = a->head;
         }
     }
-    return NO_ARC;
+    return count;
 }
 
-/* The arc that carries the flow between a node and its parent. */
-static arc *
-flow_arc(otx_maxflow *graph, const node *n)
-{
-    arc *up = &graph->arcs[n->parent];
-
-    return n->sink ? up : &graph->arcs[up->sister];
-}
-
-static int64_t
-path_room(otx_maxflow *graph, int32_t index, int64_t least)
-{
-    const node *n = &graph->nodes[index];
-
-    while (n->parent != TERMINAL)
-    {
-        const int64_t residual = flow_arc(graph, n)->residual;
-
-        least = residual < least ? residual : least;
-        n = &graph->nodes[graph->arcs[n->parent].head];
-    }
-
-    const int64_t excess = n->sink ? -n->excess : n->excess;
-
-    return excess < least ? excess : least;
-}
-
+/* Exact labels, and a queue of the demands that can still be met, farthest
+ * from the source first. */
 static void
-fill_path(otx_maxflow *graph, int32_t index, int64_t amount)
+start_over(otx_maxflow *graph)
 {
+    graph->first = graph->last = NONE;
+    graph->work = 0;
+    for (int32_t q = label_from_source(graph); q-- > 0;)
+        if (graph->nodes[graph->order[q]].balance < 0)
+            enqueue(graph, graph->order[q]);
+}
+
+/* Hands demand of `index` to the node that the arc `out` leads to. */
+static void
+pull(otx_maxflow *graph, int32_t index, arc *out)
+{
+    arc *in = &graph->arcs[out->sister];
+    node *to = &graph->nodes[out->head];
+    const int64_t demand = -graph->nodes[index].balance;
+    const int64_t amount = demand < in->residual ? demand : in->residual;
+    const int64_t had = to->balance;
+
+    in->residual -= amount;
+    out->residual += amount;
+    graph->nodes[index].balance += amount;
+    to->balance -= amount;
+    if (had > 0)
+        graph->flow += had < amount ? had : amount;
+    if (had >= 0 && to->balance < 0)
+        enqueue(graph, out->head);
+}
+
+/* Raises the label to one more than the nearest node that can still help. */
+static void
+relabel(otx_maxflow *graph, int32_t index)
+{
+    const int32_t end = graph->arc_first[index + 1];
     node *n = &graph->nodes[index];
 
-    while (n->parent != TERMINAL)
+    n->label = graph->far;
+    for (int32_t k = graph->arc_first[index]; k < end; ++k)
     {
-        arc *a = flow_arc(graph, n);
-        const int32_t up = graph->arcs[n->parent].head;
+        const arc *out = &graph->arcs[k];
+        const int32_t label = graph->nodes[out->head].label + 1;
 
-        a->residual -= amount;
-        graph->arcs[a->sister].residual += amount;
-        if (a->residual == 0)
-            orphan_front(graph, index);
-        index = up;
-        n = &graph->nodes[index];
-    }
-    n->excess += n->sink ? amount : -amount;
-    if (n->excess == 0)
-        orphan_front(graph, index);
-}
-
-static void
-augment(otx_maxflow *graph, int32_t middle)
-{
-    arc *a = &graph->arcs[middle];
-    arc *back = &graph->arcs[a->sister];
-    const int32_t tail = back->head;
-    int64_t amount = a->residual;
-
-    amount = path_room(graph, tail, amount);
-    amount = path_room(graph, a->head, amount);
-    a->residual -= amount;
-    back->residual += amount;
-    fill_path(graph, tail, amount);
-    fill_path(graph, a->head, amount);
-    graph->flow += amount;
-}
-
-/* Arcs from a node to the terminal of its tree, INT_MAX when an orphan is on
- * the way. Nodes on the way learn their distance at the present time. */
-static int32_t
-root_distance(otx_maxflow *graph, int32_t index)
-{
-    int32_t distance = 0;
-    int32_t i = index;
-
-    for (;;)
-    {
-        node *n = &graph->nodes[i];
-
-        if (n->stamp == graph->time)
-        {
-            distance += n->distance;
-            break;
-        }
-        ++distance;
-        if (n->parent == TERMINAL)
-        {
-            n->stamp = graph->time;
-            n->distance = 1;
-            break;
-        }
-        if (n->parent == ORPHAN)
-            return INT_MAX;
-        i = graph->arcs[n->parent].head;
-    }
-
-    int32_t left = distance;
-
-    for (i = index; graph->nodes[i].stamp != graph->time;
-         i = graph->arcs[graph->nodes[i].parent].head)
-    {
-        graph->nodes[i].stamp = graph->time;
-        graph->nodes[i].distance = left--;
-    }
-    return distance;
-}
-
-/* An orphan without a new parent leaves its tree; its children are orphans,
- * and neighbours that could win it back become active. */
-static void
-leave_tree(otx_maxflow *graph, int32_t index)
-{
-    const bool sink = graph->nodes[index].sink;
-
-    graph->nodes[index].parent = NO_ARC;
-    for (int32_t k = graph->arc_first[index]; k < graph->arc_first[index + 1];
-         ++k)
-    {
-        const int32_t other = graph->arcs[k].head;
-        const node *n = &graph->nodes[other];
-
-        if (n->parent == NO_ARC || n->sink != sink)
+        if (label >= n->label || graph->arcs[out->sister].residual == 0)
             continue;
-        if (room(graph, k, !sink) > 0)
-            activate(graph, other);
-        if (n->parent >= 0 && graph->arcs[n->parent].head == index)
-            orphan_back(graph, other);
+        n->label = label;
+        n->current = k;
     }
+    graph->work += RELABEL_WORK + end - graph->arc_first[index];
 }
 
+/* Passes the whole demand of a node on, or finds that nobody can meet it. */
 static void
-adopt(otx_maxflow *graph, int32_t index)
+discharge(otx_maxflow *graph, int32_t index)
 {
-    node *orphan = &graph->nodes[index];
-    int32_t best = NO_ARC;
-    int32_t best_distance = INT_MAX;
+    const int32_t end = graph->arc_first[index + 1];
+    node *n = &graph->nodes[index];
 
-    for (int32_t k = graph->arc_first[index]; k < graph->arc_first[index + 1];
-         ++k)
+    while (n->label < graph->far)
     {
-        const int32_t other = graph->arcs[k].head;
-        const node *n = &graph->nodes[other];
-
-        if (n->parent == NO_ARC || n->sink != orphan->sink ||
-            room(graph, k, !orphan->sink) == 0)
-            continue;
-
-        const int32_t distance = root_distance(graph, other);
-
-        if (distance < best_distance)
+        for (; n->current < end; ++n->current)
         {
-            best = k;
-            best_distance = distance;
+            arc *out = &graph->arcs[n->current];
+
+            if (graph->nodes[out->head].label + 1 != n->label ||
+                graph->arcs[out->sister].residual == 0)
+                continue;
+            pull(graph, index, out);
+            if (n->balance == 0)
+                return;
         }
-    }
-    if (best == NO_ARC)
-    {
-        leave_tree(graph, index);
-        return;
-    }
-    orphan->parent = best;
-    orphan->stamp = graph->time;
-    orphan->distance = best_distance + 1;
-}
-
-static void
-adopt_orphans(otx_maxflow *graph)
-{
-    while (graph->orphans.first != NO_NODE)
-    {
-        const int32_t index = graph->orphans.first;
-
-        graph->orphans.first = graph->nodes[index].next_orphan;
-        if (graph->orphans.first == NO_NODE)
-            graph->orphans.last = NO_NODE;
-        adopt(graph, index);
+        relabel(graph, index);
     }
 }
 
 int64_t
 otx_maxflow_solve(otx_maxflow *graph)
 {
-    int32_t index;
+    const int64_t work_limit =
+        3 * (int64_t)graph->node_count + graph->edge_count;
 
     lay_out_arcs(graph);
-    plant_trees(graph);
-    while ((index = next_active(graph)) != NO_NODE)
-        while (graph->nodes[index].parent != NO_ARC)
-        {
-            const int32_t middle = grow(graph, index);
+    start_over(graph);
+    while (graph->first != NONE)
+    {
+        const int32_t index = graph->first;
 
-            if (middle == NO_ARC)
-                break;
-            ++graph->time;
-            augment(graph, middle);
-            adopt_orphans(graph);
-        }
+        graph->first = graph->nodes[index].next;
+        discharge(graph, index);
+        if (graph->work > work_limit)
+            start_over(graph);
+    }
+    label_from_source(graph);
     return graph->flow;
 }
 
 bool
 otx_maxflow_source_side(const otx_maxflow *graph, int32_t index)
 {
-    const node *n = &graph->nodes[index];
-
-    return n->parent != NO_ARC && !n->sink;
+    return graph->nodes[index].label < graph->far;
 }

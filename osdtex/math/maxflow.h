@@ -1,16 +1,18 @@
 /* maxflow.h -- minimum s-t cut of a sparse graph, for seam cuts.
  *
- * The augmenting-tree algorithm of [Boykov04], which is fast on the grids and
- * meshes that seam cuts are made of. Capacities are integers, so that flow and
- * cut are exact, and the side returned is the smallest source side, which is
- * unique: the answer depends neither on the algorithm nor on the order of the
- * edges.
+ * Push-relabel [Goldberg88] with exact relabelling [Cherkassky97], which is
+ * fast both where every node has a terminal (expansion moves) and where only
+ * the border has (the cut between two pictures). Capacities are integers, so
+ * that flow and cut are exact, and the side returned is the smallest source
+ * side, which is unique: the answer depends neither on the algorithm nor on
+ * the order of the edges.
  *
  * Usage: create, terminals and edges in any order, solve once, ask sides.
  * See docs/notes/cut.md.
  *
- * [Boykov04] Boykov, Kolmogorov: An experimental comparison of min-cut /
- * max-flow algorithms for energy minimization in vision. PAMI 26(9). */
+ * [Goldberg88] Goldberg, Tarjan: A new approach to the maximum-flow problem.
+ * [Cherkassky97] Cherkassky, Goldberg: On implementing the push-relabel method
+ * for the maximum flow problem. Algorithmica 19. */
 #ifndef OTX_MATH_MAXFLOW_H
 #define OTX_MATH_MAXFLOW_H
 
