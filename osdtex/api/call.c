@@ -1,0 +1,131 @@
+/* call.c -- beginning and end of every entry. */
+#include "api/call.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+double
+otx_call_now(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+otx_status
+otx_call_begin(osdtex_context *context, const char *stage, otx_call *call)
+{
+    if (!context)
+        return OSDTEX_ERROR_ARGUMENT;
+    *call = (otx_call){
+        .context = context,
+        .stage = stage,
+        .run =
+            {
+                .scratch = context->scratch,
+                .pool = context->pool,
+                .heap = context->heap,
+                .diagnostics = context->diagnostics,
+                .progress = context->options.progress,
+                .progress_user = context->options.progress_user,
+            },
+        .scratch = otx_arena_here(context->scratch),
+        .begun = otx_call_now(),
+    };
+    call->run.arena = otx_arena_create(context->heap);
+    if (!call->run.arena)
+        return otx_fail_memory(&call->run, stage);
+    return OSDTEX_OK;
+}
+
+static void
+add_time(osdtex_context *context, const char *stage, double seconds)
+{
+    for (int32_t i = 0; i < context->time_count; ++i)
+    {
+        if (strcmp(context->times[i].stage, stage) == 0)
+        {
+            context->times[i].seconds += seconds;
+            return;
+        }
+    }
+    if (context->time_count < OTX_CALL_TIMES_MAX)
+        context->times[context->time_count++] = (otx_call_time){stage, seconds};
+}
+
+otx_status
+otx_call_end(otx_call *call, otx_status status)
+{
+    otx_arena_release(call->run.scratch, call->scratch);
+    add_time(call->context, call->stage, otx_call_now() - call->begun);
+    if (status != OSDTEX_OK)
+        otx_arena_destroy(call->run.arena);
+    return status;
+}
+
+otx_status
+otx_call_drop(otx_call *call, otx_status status)
+{
+    otx_call_end(call, OSDTEX_OK);
+    otx_arena_destroy(call->run.arena);
+    return status;
+}
+
+otx_status
+otx_call_options(otx_run *run, void *ours, size_t our_bytes, const void *theirs)
+{
+    size_t bytes;
+
+    if (!theirs)
+        return OSDTEX_OK;
+    memcpy(&bytes, theirs, sizeof bytes);
+    if (bytes < sizeof bytes || bytes > 65536)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "options", OTX_NOWHERE,
+            "the size of an options struct is not set; begin with its "
+            "*_default() or *_none() function");
+    memcpy(ours, theirs, bytes < our_bytes ? bytes : our_bytes);
+    memcpy(ours, &our_bytes, sizeof our_bytes);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_call_colour(otx_call *call, const otx_colour **out)
+{
+    osdtex_context *context = call->context;
+    otx_run lasting = call->run;
+
+    lasting.arena = context->arena;
+    if (!context->colour_is_open)
+        OTX_TRY(otx_colour_open(
+            &lasting, context->options.colorconfig, getenv("OCIO"),
+            &context->colour));
+    context->colour_is_open = true;
+    *out = &context->colour;
+    return OSDTEX_OK;
+}
+
+static void
+destroy_arena(void *arena)
+{
+    otx_arena_destroy(arena);
+}
+
+otx_status
+otx_call_aside(otx_call *call, otx_run *out)
+{
+    otx_arena *aside = otx_arena_create(call->run.heap);
+
+    if (!aside)
+        return otx_fail_memory(&call->run, call->stage);
+    if (!otx_arena_defer(call->run.scratch, destroy_arena, aside))
+    {
+        otx_arena_destroy(aside);
+        return otx_fail_memory(&call->run, call->stage);
+    }
+    *out = call->run;
+    out->arena = aside;
+    return OSDTEX_OK;
+}

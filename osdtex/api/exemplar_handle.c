@@ -1,0 +1,186 @@
+/* exemplar_handle.c -- a picture from file or memory, its colours resolved. */
+#include "api/call.h"
+#include "api/handle.h"
+#include "base/hash.h"
+#include "file/picture.h"
+
+#include <string.h>
+
+static const char *
+type_of(const otx_picture *picture)
+{
+    if (picture->is_float)
+        return picture->bits == 16   ? "half"
+               : picture->bits == 32 ? "float"
+                                     : "double";
+    if (picture->bits <= 8)
+        return "8-bit";
+    return picture->bits <= 16 ? "16-bit" : "32-bit";
+}
+
+static osdtex_exemplar_info
+info_of(const otx_exemplar *exemplar, const char *type)
+{
+    return (osdtex_exemplar_info){
+        .path = exemplar->source_path,
+        .hash = exemplar->source_hash,
+        .type = type,
+        .source_space = exemplar->source_space,
+        .linear_space = exemplar->linear_space,
+        .match_space = exemplar->match_space,
+        .embedding = otx_embedding_name(exemplar->embedding),
+        .width = exemplar->linear.width,
+        .height = exemplar->linear.height,
+        .channels = exemplar->linear.channels,
+        .wrap_x = exemplar->wrap_x,
+        .wrap_y = exemplar->wrap_y,
+        .pixels = exemplar->linear.pixels,
+    };
+}
+
+static otx_status
+check_options(
+    otx_run *run, const osdtex_exemplar_options *theirs,
+    osdtex_exemplar_options *ours)
+{
+    *ours = osdtex_exemplar_options_default();
+    OTX_TRY(otx_call_options(run, ours, sizeof *ours, theirs));
+    if (ours->embedding < 0 || ours->embedding >= OTX_EMBEDDING_COUNT ||
+        ours->wrap < OSDTEX_WRAP_AUTO || ours->wrap > OSDTEX_WRAP_YES)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "colour", OTX_NOWHERE,
+            "embedding or wrap is none of the values of osdtex.h");
+    return OSDTEX_OK;
+}
+
+/* Builds the handle. `input` holds what is known of the pixels. */
+static otx_status
+build(
+    otx_call *call, otx_exemplar_input *input,
+    const osdtex_exemplar_options *options, const char *type,
+    osdtex_exemplar **out)
+{
+    otx_run *run = &call->run;
+    osdtex_exemplar *handle = OTX_ZNEW(run->arena, osdtex_exemplar, 1);
+    const otx_colour *colour;
+
+    if (!handle)
+        return otx_fail_memory(run, "colour");
+    OTX_TRY(otx_call_colour(call, &colour));
+    input->to = options->to;
+    input->match_space = options->match_space;
+    input->embedding = (otx_embedding)options->embedding;
+    input->wrap = (otx_exemplar_wrap)options->wrap;
+    handle->arena = run->arena;
+    OTX_TRY(otx_exemplar_build(run, colour, input, &handle->exemplar));
+    handle->info = info_of(&handle->exemplar, type);
+    *out = handle;
+    return OSDTEX_OK;
+}
+
+/* `hash` of the file at `path`, copied to where the handle lives. */
+static otx_status
+keep_source(otx_run *run, const char *path, otx_exemplar_input *input)
+{
+    char hash[OTX_HASH_TEXT_BYTES];
+
+    input->source.path = otx_arena_strdup(run->arena, path);
+    if (!input->source.path)
+        return otx_fail_memory(run, "exemplar");
+    if (!otx_hash_file(path, hash))
+        return OSDTEX_OK;
+    input->hash = otx_arena_strdup(run->arena, hash);
+    return input->hash ? OSDTEX_OK : otx_fail_memory(run, "exemplar");
+}
+
+static otx_status
+read_exemplar(
+    otx_call *call, const char *path, const osdtex_exemplar_options *options,
+    osdtex_exemplar **out)
+{
+    otx_exemplar_input input = {0};
+    osdtex_exemplar_options ours;
+    otx_picture picture;
+    otx_run aside;
+
+    if (!path)
+        return otx_fail(
+            &call->run, OSDTEX_ERROR_ARGUMENT, "exemplar", OTX_NOWHERE,
+            "no path of an exemplar is given");
+    OTX_TRY(check_options(&call->run, options, &ours));
+    OTX_TRY(otx_call_aside(call, &aside));
+    OTX_TRY(otx_picture_read(&aside, path, &picture));
+    OTX_TRY(keep_source(&call->run, path, &input));
+    input.pixels = picture.image;
+    input.alpha_is_premultiplied = picture.alpha_is_premultiplied;
+    input.source.from = ours.from;
+    input.source.interop_id = picture.interop_id;
+    input.source.oiio_space = picture.oiio_space;
+    input.source.has_chromaticities = picture.has_chromaticities;
+    input.source.is_float = picture.is_float;
+    memcpy(
+        input.source.chromaticities, picture.chromaticities,
+        sizeof picture.chromaticities);
+    return build(call, &input, &ours, type_of(&picture), out);
+}
+
+osdtex_status
+osdtex_exemplar_read(
+    osdtex_context *context, const char *path,
+    const osdtex_exemplar_options *options, osdtex_exemplar **out)
+{
+    otx_call call;
+
+    if (!out)
+        return OSDTEX_ERROR_ARGUMENT;
+    *out = NULL;
+    OTX_TRY(otx_call_begin(context, "exemplar", &call));
+    return otx_call_end(&call, read_exemplar(&call, path, options, out));
+}
+
+static otx_status
+create_exemplar(
+    otx_call *call, const osdtex_image *image,
+    const osdtex_exemplar_options *options, osdtex_exemplar **out)
+{
+    otx_exemplar_input input = {0};
+    osdtex_exemplar_options ours;
+
+    if (!image)
+        return otx_fail(
+            &call->run, OSDTEX_ERROR_ARGUMENT, "exemplar", OTX_NOWHERE,
+            "no image is given");
+    OTX_TRY(check_options(&call->run, options, &ours));
+    input.pixels = image->image;
+    input.alpha_is_premultiplied = true;
+    input.source.from = ours.from;
+    input.source.is_float = true;
+    return build(call, &input, &ours, NULL, out);
+}
+
+osdtex_status
+osdtex_exemplar_create(
+    osdtex_context *context, const osdtex_image *image,
+    const osdtex_exemplar_options *options, osdtex_exemplar **out)
+{
+    otx_call call;
+
+    if (!out)
+        return OSDTEX_ERROR_ARGUMENT;
+    *out = NULL;
+    OTX_TRY(otx_call_begin(context, "exemplar", &call));
+    return otx_call_end(&call, create_exemplar(&call, image, options, out));
+}
+
+const osdtex_exemplar_info *
+osdtex_exemplar_describe(const osdtex_exemplar *exemplar)
+{
+    return exemplar ? &exemplar->info : NULL;
+}
+
+void
+osdtex_exemplar_destroy(osdtex_exemplar *exemplar)
+{
+    if (exemplar)
+        otx_arena_destroy(exemplar->arena);
+}

@@ -1,0 +1,62 @@
+/* handle.h -- what is inside the opaque handles.
+ *
+ * Every handle lives in an arena of its own, with all that belongs to it;
+ * destroying the handle is destroying the arena. */
+#ifndef OTX_API_HANDLE_H
+#define OTX_API_HANDLE_H
+
+#include "image/exemplar.h"
+#include "method/method.h"
+#include "render/scene.h"
+
+struct osdtex_cage
+{
+    otx_arena *arena;
+    otx_cage cage;
+    osdtex_cage_info info;
+};
+
+struct osdtex_surface
+{
+    otx_arena *arena;
+    const osdtex_cage *cage;
+    otx_surface surface;
+    osdtex_surface_info info;
+};
+
+struct osdtex_image
+{
+    otx_arena *arena;
+    otx_image image;
+    osdtex_image_info info;
+};
+
+struct osdtex_exemplar
+{
+    otx_arena *arena;
+    otx_exemplar exemplar;
+    osdtex_exemplar_info info;
+};
+
+struct osdtex_mapping
+{
+    otx_arena *arena;
+    const osdtex_surface *surface;
+    const osdtex_exemplar *exemplar;
+    otx_mapping mapping;
+    otx_map_stats stats;
+    /* What was asked, as resolved. */
+    const otx_method *method;
+    const void *settings;
+    otx_map_request request;
+    uint64_t seed;
+    osdtex_mapping_info info;
+};
+
+struct osdtex_model
+{
+    otx_arena *arena;
+    otx_scene scene;
+};
+
+#endif

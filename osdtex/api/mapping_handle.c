@@ -1,0 +1,202 @@
+/* mapping_handle.c -- running a method, writing what it made. */
+#include "api/call.h"
+#include "api/handle.h"
+#include "base/near.h"
+#include "export/model.h"
+
+#include <math.h>
+
+static const char *
+method_name(const void *list, int32_t index)
+{
+    (void)list;
+    return index < otx_method_count() ? otx_method_at(index)->name : NULL;
+}
+
+static otx_status
+choose_method(otx_run *run, const char *name, const otx_method **out)
+{
+    char near_names[256];
+
+    *out = name ? otx_method_find(name) : otx_method_at(0);
+    if (*out)
+        return OSDTEX_OK;
+    otx_near_text(name ? name : "", method_name, NULL, near_names);
+    return otx_fail(
+        run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
+        "there is no method '%.60s'%s", name ? name : "", near_names);
+}
+
+static otx_status
+choose_settings(
+    otx_run *run, const otx_method *method, const osdtex_map_options *options,
+    const void **out)
+{
+    void *settings = otx_arena_zalloc(run->arena, method->settings_bytes, 1);
+
+    if (!settings)
+        return otx_fail_memory(run, "map");
+    otx_option_defaults(method->options, method->option_count, settings);
+    for (int32_t i = 0; i < options->setting_count; ++i)
+    {
+        const osdtex_setting *s = &options->settings[i];
+
+        if (!s->key || !s->value)
+            return otx_fail(
+                run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
+                "a setting without a key or a value");
+        OTX_TRY(otx_option_set(
+            run, method->options, method->option_count, settings, s->key,
+            s->value));
+    }
+    *out = settings;
+    return OSDTEX_OK;
+}
+
+static otx_status
+choose_request(
+    otx_run *run, const osdtex_surface *surface,
+    const osdtex_map_options *options, otx_map_request *out)
+{
+    const osdtex_cage_info *cage = &surface->cage->info;
+
+    *out = (otx_map_request){
+        .scale = options->scale,
+        .first_face = options->first_face,
+        .first_position = {options->first_u, options->first_v},
+        .first_angle = options->first_angle,
+    };
+    if (options->scale == 0.0)
+    {
+        out->scale = cage->default_scale;
+        otx_note(
+            run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
+            "scale %g: a fifth of the diagonal of the cage's bounding box",
+            out->scale);
+    }
+    if (!(out->scale > 0.0) || !isfinite(out->scale))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
+            "the scale is a positive number of scene units, not %g",
+            out->scale);
+    if (options->first_face < -1 || options->first_face >= cage->face_count)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
+            "the first patch begins at face %d, but the cage has faces 0 to "
+            "%d",
+            options->first_face, cage->face_count - 1);
+    if (!isfinite(options->first_u) || !isfinite(options->first_v) ||
+        !isfinite(options->first_angle))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
+            "position and angle of the first patch must be finite");
+    return OSDTEX_OK;
+}
+
+static osdtex_mapping_info
+info_of(const osdtex_mapping *handle)
+{
+    return (osdtex_mapping_info){
+        .method = handle->method->name,
+        .scale = handle->mapping.scale,
+        .face_count = handle->surface->info.face_count,
+        .corner_count = handle->surface->info.corner_count,
+        .uvs = handle->mapping.uvs,
+        .face_patch = handle->mapping.face_patch,
+        .patch_count = handle->mapping.patch_count,
+    };
+}
+
+static otx_status
+map(otx_run *run, const osdtex_surface *surface,
+    const osdtex_exemplar *exemplar, const osdtex_map_options *options,
+    osdtex_mapping **out)
+{
+    osdtex_map_options ours = osdtex_map_options_default();
+    osdtex_mapping *handle = OTX_ZNEW(run->arena, osdtex_mapping, 1);
+
+    if (!handle)
+        return otx_fail_memory(run, "map");
+    OTX_TRY(otx_call_options(run, &ours, sizeof ours, options));
+    if (!surface || !exemplar || (ours.setting_count > 0 && !ours.settings) ||
+        ours.setting_count < 0)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
+            "no surface, no exemplar, or no settings are given");
+    handle->arena = run->arena;
+    handle->surface = surface;
+    handle->exemplar = exemplar;
+    handle->seed = ours.seed;
+    OTX_TRY(choose_method(run, ours.method, &handle->method));
+    OTX_TRY(choose_settings(run, handle->method, &ours, &handle->settings));
+    OTX_TRY(choose_request(run, surface, &ours, &handle->request));
+    run->seed = ours.seed;
+    OTX_TRY(otx_method_map(
+        run, handle->method, &surface->surface, &exemplar->exemplar,
+        &handle->request, handle->settings, &handle->mapping, &handle->stats));
+    handle->info = info_of(handle);
+    *out = handle;
+    return OSDTEX_OK;
+}
+
+osdtex_status
+osdtex_map(
+    osdtex_context *context, const osdtex_surface *surface,
+    const osdtex_exemplar *exemplar, const osdtex_map_options *options,
+    osdtex_mapping **out)
+{
+    otx_call call;
+
+    if (!out)
+        return OSDTEX_ERROR_ARGUMENT;
+    *out = NULL;
+    OTX_TRY(otx_call_begin(context, "map", &call));
+    return otx_call_end(&call, map(&call.run, surface, exemplar, options, out));
+}
+
+const osdtex_mapping_info *
+osdtex_mapping_describe(const osdtex_mapping *mapping)
+{
+    return mapping ? &mapping->info : NULL;
+}
+
+void
+osdtex_mapping_destroy(osdtex_mapping *mapping)
+{
+    if (mapping)
+        otx_arena_destroy(mapping->arena);
+}
+
+static otx_status
+write_mapping(
+    otx_run *run, const osdtex_mapping *mapping, const char *path,
+    const osdtex_write_options *options)
+{
+    osdtex_write_options ours = osdtex_write_options_default();
+    otx_model_options how = {.path = path};
+    otx_model_files files;
+
+    OTX_TRY(otx_call_options(run, &ours, sizeof ours, options));
+    if (!mapping || !path || ours.comment_count < 0 ||
+        (ours.comment_count > 0 && !ours.comments))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "export", OTX_NOWHERE,
+            "no mapping, no path, or no comments are given");
+    how.without_image = ours.without_image != 0;
+    how.comment_count = ours.comment_count;
+    how.comments = ours.comments;
+    return otx_model_write(
+        run, &mapping->mapping, &mapping->exemplar->exemplar, &how, &files);
+}
+
+osdtex_status
+osdtex_mapping_write(
+    osdtex_context *context, const osdtex_mapping *mapping, const char *path,
+    const osdtex_write_options *options)
+{
+    otx_call call;
+
+    OTX_TRY(otx_call_begin(context, "export", &call));
+    return otx_call_drop(
+        &call, write_mapping(&call.run, mapping, path, options));
+}

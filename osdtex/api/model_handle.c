@@ -1,0 +1,373 @@
+/* model_handle.c -- what there is to look at: an OBJ with its textures, or a
+ * mapping as it stands in memory. Textures are brought to scene_linear, the
+ * space that light is added up in. */
+#include "api/call.h"
+#include "api/handle.h"
+#include "file/mtl.h"
+#include "file/obj.h"
+#include "file/picture.h"
+
+#include <string.h>
+#include <unistd.h>
+
+/* A texture and the file it came from. */
+typedef struct source
+{
+    const char *path;
+    int32_t texture; /* -1: the file is not there */
+} source;
+
+typedef struct loader
+{
+    otx_call *call;
+    const otx_obj *obj;
+    const otx_colour *colour;
+    const char *linear; /* scene_linear of the configuration */
+    otx_scene *scene;
+    otx_scene_texture *textures; /* [materials + 1] */
+    int32_t texture_count;
+    source *sources; /* [materials + 1] */
+    int32_t source_count;
+    int32_t *material_texture; /* [materials], -1 none */
+} loader;
+
+/* `name` beside the file `path`, in `arena`; NULL when memory is out. Windows
+ * writers separate folders by backslashes. */
+static char *
+beside(otx_arena *arena, const char *path, const char *name)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t folder =
+        slash && name[0] != '/' ? (size_t)(slash - path) + 1 : 0;
+    const size_t bytes = folder + strlen(name) + 1;
+    char *result = OTX_NEW(arena, char, bytes);
+
+    if (!result)
+        return NULL;
+    memcpy(result, path, folder);
+    memcpy(result + folder, name, bytes - folder);
+    if (access(result, R_OK) != 0)
+        for (char *c = result + folder; *c; ++c)
+            if (*c == '\\')
+                *c = '/';
+    return result;
+}
+
+/* Brings pixels to scene_linear, as the file's colours are resolved. */
+static otx_status
+linearise(loader *l, const char *path, otx_picture *picture)
+{
+    otx_run *run = &l->call->run;
+    const char *space;
+    otx_colour_source about = {
+        .path = path,
+        .interop_id = picture->interop_id,
+        .oiio_space = picture->oiio_space,
+        .has_chromaticities = picture->has_chromaticities,
+        .is_float = picture->is_float,
+    };
+
+    memcpy(
+        about.chromaticities, picture->chromaticities,
+        sizeof about.chromaticities);
+    OTX_TRY(otx_colour_resolve(run, l->colour, &about, &space));
+    return otx_colour_convert(
+        run, l->colour, space, l->linear, &picture->image);
+}
+
+/* Index of the texture in the file `path`, read once; -1 when the file is not
+ * there, which is a warning: a model without its textures can be looked at. */
+static otx_status
+texture_of(loader *l, const char *path, int32_t *out)
+{
+    otx_run *run = &l->call->run;
+    otx_where where = OTX_NOWHERE;
+    otx_picture picture;
+
+    where.file = path;
+    for (int32_t i = 0; i < l->source_count; ++i)
+    {
+        if (strcmp(l->sources[i].path, path) == 0)
+        {
+            *out = l->sources[i].texture;
+            return OSDTEX_OK;
+        }
+    }
+    *out = -1;
+    if (access(path, F_OK) == 0)
+    {
+        OTX_TRY(otx_picture_read(run, path, &picture));
+        OTX_TRY(linearise(l, path, &picture));
+        *out = l->texture_count++;
+        l->textures[*out] = (otx_scene_texture){picture.image, true, true};
+    }
+    else
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, "model", where,
+            "the texture is not there; its faces are shown grey");
+    l->sources[l->source_count++] = (source){path, *out};
+    return OSDTEX_OK;
+}
+
+/* Gives the materials of one library their textures. */
+static otx_status
+use_library(loader *l, const char *path)
+{
+    otx_run *run = &l->call->run;
+    otx_mtl mtl;
+
+    OTX_TRY(otx_mtl_read(run, path, &mtl));
+    for (int32_t m = 0; m < l->obj->materials.count; ++m)
+    {
+        const int32_t found = otx_mtl_find(&mtl, l->obj->materials.text[m]);
+        const char *texture;
+
+        if (found < 0 || !mtl.materials[found].map_kd ||
+            l->material_texture[m] >= 0)
+            continue;
+        texture = beside(run->arena, path, mtl.materials[found].map_kd);
+        if (!texture)
+            return otx_fail_memory(run, "model");
+        OTX_TRY(texture_of(l, texture, &l->material_texture[m]));
+    }
+    return OSDTEX_OK;
+}
+
+static otx_status
+use_libraries(loader *l)
+{
+    otx_run *run = &l->call->run;
+    otx_where where = OTX_NOWHERE;
+
+    where.file = l->obj->path;
+    for (int32_t i = 0; i < l->obj->libraries.count; ++i)
+    {
+        const char *name = l->obj->libraries.text[i];
+        const char *path = beside(run->arena, l->obj->path, name);
+
+        if (!path)
+            return otx_fail_memory(run, "model");
+        if (access(path, F_OK) == 0)
+            OTX_TRY(use_library(l, path));
+        else
+            otx_note(
+                run, OSDTEX_SEVERITY_WARNING, "model", where,
+                "the material library '%.200s' is not beside the OBJ; its "
+                "faces are shown grey",
+                name);
+    }
+    return OSDTEX_OK;
+}
+
+/* Per-corner UVs and per-face textures from the OBJ's indices. */
+static otx_status
+spread_uvs(loader *l)
+{
+    const otx_obj *obj = l->obj;
+    otx_run *run = &l->call->run;
+    float *uvs = OTX_ZNEW(run->arena, float, 2 * (size_t)obj->corner_count);
+    int32_t *face_texture = OTX_NEW(run->arena, int32_t, obj->face_count);
+
+    if (!uvs || !face_texture)
+        return otx_fail_memory(run, "model");
+    for (int32_t f = 0; f < obj->face_count; ++f)
+    {
+        const int32_t first = obj->face_first[f];
+        const int32_t material =
+            obj->face_material ? obj->face_material[f] : -1;
+        const bool has_uvs = obj->face_uvs && obj->face_uvs[first] >= 0;
+
+        face_texture[f] =
+            material >= 0 && has_uvs ? l->material_texture[material] : -1;
+        for (int32_t c = first; has_uvs && c < obj->face_first[f + 1]; ++c)
+            memcpy(
+                uvs + 2 * (size_t)c, obj->uvs + 2 * (size_t)obj->face_uvs[c],
+                2 * sizeof *uvs);
+    }
+    l->scene->uvs = uvs;
+    l->scene->face_texture = face_texture;
+    return OSDTEX_OK;
+}
+
+/* A picture that no UV leaves has a border: bleeding across it would draw a
+ * line where a patch touches it. One that is left is meant to repeat. */
+static void
+choose_wrapping(loader *l)
+{
+    const otx_scene *scene = l->scene;
+
+    for (int32_t t = 0; t < l->texture_count; ++t)
+        l->textures[t].wrap_x = l->textures[t].wrap_y = false;
+    for (int32_t f = 0; f < scene->face_count; ++f)
+    {
+        const int32_t t = scene->face_texture[f];
+
+        if (t < 0)
+            continue;
+        for (int32_t c = scene->face_first[f]; c < scene->face_first[f + 1];
+             ++c)
+        {
+            const float u = scene->uvs[2 * (size_t)c];
+            const float v = scene->uvs[2 * (size_t)c + 1];
+
+            l->textures[t].wrap_x |= u < 0.0f || u > 1.0f;
+            l->textures[t].wrap_y |= v < 0.0f || v > 1.0f;
+        }
+    }
+}
+
+static otx_status
+hole_faces(otx_run *run, const otx_obj *obj, otx_scene *scene)
+{
+    uint8_t *holes;
+
+    if (obj->hole_count == 0)
+        return OSDTEX_OK;
+    holes = OTX_ZNEW(run->arena, uint8_t, obj->face_count);
+    if (!holes)
+        return otx_fail_memory(run, "model");
+    for (int32_t i = 0; i < obj->hole_count; ++i)
+        holes[obj->hole_faces[i]] = 1;
+    scene->face_hole = holes;
+    return OSDTEX_OK;
+}
+
+static otx_status
+load(loader *l)
+{
+    const size_t slots = (size_t)l->obj->materials.count + 1;
+    otx_run *run = &l->call->run;
+
+    l->textures = OTX_ZNEW(run->arena, otx_scene_texture, slots);
+    l->sources = OTX_ZNEW(run->arena, source, slots);
+    l->material_texture = OTX_NEW(run->arena, int32_t, slots);
+    if (!l->textures || !l->sources || !l->material_texture)
+        return otx_fail_memory(run, "model");
+    for (size_t m = 0; m < slots; ++m)
+        l->material_texture[m] = -1;
+    OTX_TRY(use_libraries(l));
+    OTX_TRY(hole_faces(run, l->obj, l->scene));
+    if (l->obj->uv_count == 0)
+        return OSDTEX_OK;
+    OTX_TRY(spread_uvs(l));
+    choose_wrapping(l);
+    l->scene->textures = l->textures;
+    l->scene->texture_count = l->texture_count;
+    return OSDTEX_OK;
+}
+
+static otx_status
+open_colour(otx_call *call, loader *l)
+{
+    OTX_TRY(otx_call_colour(call, &l->colour));
+    return otx_colour_resolve_linear(&call->run, l->colour, NULL, &l->linear);
+}
+
+static otx_status
+read_model(otx_call *call, const char *path, osdtex_model **out)
+{
+    otx_run *run = &call->run;
+    osdtex_model *handle = OTX_ZNEW(run->arena, osdtex_model, 1);
+    otx_obj obj;
+    loader l = {.call = call, .obj = &obj};
+
+    if (!handle)
+        return otx_fail_memory(run, "model");
+    if (!path)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
+            "no path of a model is given");
+    OTX_TRY(otx_obj_read(run, path, &obj));
+    OTX_TRY(open_colour(call, &l));
+    handle->arena = run->arena;
+    handle->scene = (otx_scene){
+        .vert_count = obj.vert_count,
+        .face_count = obj.face_count,
+        .corner_count = obj.corner_count,
+        .points = obj.points,
+        .face_first = obj.face_first,
+        .face_verts = obj.face_verts,
+    };
+    l.scene = &handle->scene;
+    OTX_TRY(load(&l));
+    OTX_TRY(otx_scene_smooth(run, &handle->scene));
+    OTX_TRY(otx_scene_validate(run, &handle->scene));
+    *out = handle;
+    return OSDTEX_OK;
+}
+
+osdtex_status
+osdtex_model_read(osdtex_context *context, const char *path, osdtex_model **out)
+{
+    otx_call call;
+
+    if (!out)
+        return OSDTEX_ERROR_ARGUMENT;
+    *out = NULL;
+    OTX_TRY(otx_call_begin(context, "model", &call));
+    return otx_call_end(&call, read_model(&call, path, out));
+}
+
+/* The exemplar in scene_linear: borrowed where it is in that space already,
+ * else a converted copy. */
+static otx_status
+texture_from(loader *l, const otx_exemplar *exemplar, otx_image *out)
+{
+    otx_run *run = &l->call->run;
+    const otx_image *from = &exemplar->linear;
+    const size_t bytes = (size_t)from->width * (size_t)from->height *
+                         (size_t)from->channels * sizeof(float);
+
+    *out = *from;
+    if (strcmp(exemplar->linear_space, l->linear) == 0)
+        return OSDTEX_OK;
+    OTX_TRY(otx_image_create(
+        run, run->arena, from->width, from->height, from->channels, out));
+    memcpy(out->pixels, from->pixels, bytes);
+    return otx_colour_convert(
+        run, l->colour, exemplar->linear_space, l->linear, out);
+}
+
+static otx_status
+create_model(otx_call *call, const osdtex_mapping *mapping, osdtex_model **out)
+{
+    otx_run *run = &call->run;
+    osdtex_model *handle = OTX_ZNEW(run->arena, osdtex_model, 1);
+    loader l = {.call = call};
+    otx_exemplar exemplar;
+
+    if (!handle)
+        return otx_fail_memory(run, "model");
+    if (!mapping)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
+            "no mapping is given");
+    OTX_TRY(open_colour(call, &l));
+    exemplar = mapping->exemplar->exemplar;
+    OTX_TRY(texture_from(&l, &mapping->exemplar->exemplar, &exemplar.linear));
+    handle->arena = run->arena;
+    OTX_TRY(otx_scene_from_mapping(
+        run, &mapping->mapping, &exemplar, &handle->scene));
+    *out = handle;
+    return OSDTEX_OK;
+}
+
+osdtex_status
+osdtex_model_create(
+    osdtex_context *context, const osdtex_mapping *mapping, osdtex_model **out)
+{
+    otx_call call;
+
+    if (!out)
+        return OSDTEX_ERROR_ARGUMENT;
+    *out = NULL;
+    OTX_TRY(otx_call_begin(context, "model", &call));
+    return otx_call_end(&call, create_model(&call, mapping, out));
+}
+
+void
+osdtex_model_destroy(osdtex_model *model)
+{
+    if (model)
+        otx_arena_destroy(model->arena);
+}

@@ -1,0 +1,92 @@
+/* render_handle.c -- a picture of a model. */
+#include "api/call.h"
+#include "api/image_handle.h"
+#include "base/near.h"
+#include "render/render.h"
+
+static const char *
+show_name(const void *list, int32_t index)
+{
+    (void)list;
+    return index < OTX_SHOW_COUNT ? otx_render_show_name((otx_show)index)
+                                  : NULL;
+}
+
+static const char *
+view_name(const void *list, int32_t index)
+{
+    (void)list;
+    return index < OTX_VIEW_COUNT ? otx_camera_view_name((otx_view)index)
+                                  : NULL;
+}
+
+static otx_status
+no_such(otx_run *run, const char *what, const char *name, otx_near_name names)
+{
+    char near_names[256];
+
+    otx_near_text(name, names, NULL, near_names);
+    return otx_fail(
+        run, OSDTEX_ERROR_ARGUMENT, "render", OTX_NOWHERE,
+        "there is no %s '%.60s'%s", what, name, near_names);
+}
+
+static otx_status
+options_of(
+    otx_run *run, const osdtex_render_options *ours, otx_camera *camera,
+    otx_render_options *out)
+{
+    *out = otx_render_defaults();
+    out->width = ours->width;
+    out->height = ours->height;
+    out->samples = ours->samples;
+    out->unlit = ours->unlit != 0;
+    out->transparent = ours->transparent != 0;
+    out->turn = ours->turn;
+    if (ours->show && !otx_render_show_find(ours->show, &out->show))
+        return no_such(run, "picture to show", ours->show, show_name);
+    if (ours->view && !otx_camera_view_find(ours->view, &out->view))
+        return no_such(run, "view", ours->view, view_name);
+    if (ours->fov == 0.0)
+        return OSDTEX_OK;
+    *camera = (otx_camera){
+        {ours->eye[0], ours->eye[1], ours->eye[2]},
+        {ours->target[0], ours->target[1], ours->target[2]},
+        ours->fov};
+    out->camera = camera;
+    return OSDTEX_OK;
+}
+
+static otx_status
+render(
+    otx_run *run, const osdtex_model *model,
+    const osdtex_render_options *options, osdtex_image **out)
+{
+    osdtex_render_options ours = osdtex_render_options_default();
+    otx_render_options how;
+    otx_camera camera;
+    otx_image image;
+
+    if (!model)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "render", OTX_NOWHERE,
+            "no model is given");
+    OTX_TRY(otx_call_options(run, &ours, sizeof ours, options));
+    OTX_TRY(options_of(run, &ours, &camera, &how));
+    OTX_TRY(otx_render(run, &model->scene, &how, &image));
+    return otx_image_handle_wrap(run, image, out);
+}
+
+osdtex_status
+osdtex_render(
+    osdtex_context *context, const osdtex_model *model,
+    const osdtex_render_options *options, osdtex_image **out)
+{
+    otx_call call;
+
+    if (!out)
+        return OSDTEX_ERROR_ARGUMENT;
+    *out = NULL;
+    OTX_TRY(otx_call_begin(context, "render", &call));
+    return otx_call_end(&call, render(&call.run, model, options, out));
+}

@@ -1,0 +1,387 @@
+/* report.c -- what was done, as JSON for scripts.
+ *
+ * Keys are sorted and numbers are printed by jansson, which undoes a decimal
+ * comma. What is in it is described in docs/report.md. */
+#include "api/call.h"
+#include "api/handle.h"
+#include "file/atomic_file.h"
+#include "mapping/measure.h"
+
+#include <errno.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+
+enum
+{
+    /* Windows at seams that are looked up in the exemplar: enough for a median
+     * to two digits, a fraction of a second. */
+    WINDOWS = 200
+};
+
+static const char *const schemes[] = {"catmark", "loop", "bilinear", "none"};
+static const char *const boundaries[] = {"none", "edgeOnly", "edgeAndCorner"};
+static const char *const fvars[] = {
+    "none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"};
+
+/* Text that may be absent, and whose bytes a file may have made up: what is no
+ * UTF-8 is replaced by '?'. */
+static json_t *
+text_of(const char *text)
+{
+    json_t *result = text ? json_string(text) : json_null();
+    char plain[1024];
+    size_t i = 0;
+
+    if (result)
+        return result;
+    for (; text[i] && i + 1 < sizeof plain; ++i)
+        plain[i] = text[i] >= ' ' && text[i] <= '~' ? text[i] : '?';
+    plain[i] = '\0';
+    return json_string(plain);
+}
+
+/* JSON has no infinity: such a figure is null. */
+static json_t *
+real_of(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static void
+set(json_t *object, const char *key, json_t *value)
+{
+    json_object_set_new(object, key, value);
+}
+
+static void
+set_text(json_t *object, const char *key, const char *value)
+{
+    set(object, key, text_of(value));
+}
+
+static void
+set_real(json_t *object, const char *key, double value)
+{
+    set(object, key, real_of(value));
+}
+
+static void
+set_int(json_t *object, const char *key, int64_t value)
+{
+    set(object, key, json_integer((json_int_t)value));
+}
+
+static json_t *
+add_object(json_t *parent, const char *key)
+{
+    json_t *object = json_object();
+
+    set(parent, key, object);
+    return object;
+}
+
+static json_t *
+add_array(json_t *parent, const char *key)
+{
+    json_t *array = json_array();
+
+    set(parent, key, array);
+    return array;
+}
+
+static void
+put_inputs(json_t *root, const osdtex_mapping *mapping)
+{
+    const osdtex_cage_info *cage = &mapping->surface->cage->info;
+    const osdtex_exemplar_info *exemplar = &mapping->exemplar->info;
+    json_t *inputs = add_object(root, "inputs");
+    json_t *c = add_object(inputs, "cage");
+    json_t *e = add_object(inputs, "exemplar");
+
+    set_text(c, "path", cage->path);
+    set_text(c, "hash", cage->hash);
+    set_int(c, "vertices", cage->vert_count);
+    set_int(c, "faces", cage->face_count);
+    set_int(c, "edges", cage->edge_count);
+    set_int(c, "components", cage->component_count);
+    set_int(c, "boundary_edges", cage->boundary_edge_count);
+    set_int(c, "creases", cage->crease_count);
+    set_int(c, "corners", cage->corner_count);
+    set_int(c, "holes", cage->hole_count);
+    set_real(c, "diagonal", cage->diagonal);
+    set_text(e, "path", exemplar->path);
+    set_text(e, "hash", exemplar->hash);
+    set_text(e, "type", exemplar->type);
+    set_int(e, "width", exemplar->width);
+    set_int(e, "height", exemplar->height);
+    set_int(e, "channels", exemplar->channels);
+}
+
+static void
+put_settings(json_t *options, const osdtex_mapping *mapping)
+{
+    json_t *settings = add_object(options, "settings");
+    char text[64];
+
+    for (int32_t i = 0; i < mapping->method->option_count; ++i)
+    {
+        const otx_option *option = &mapping->method->options[i];
+
+        otx_option_text(option, mapping->settings, text);
+        set_text(settings, option->name, text);
+    }
+}
+
+static void
+put_options(
+    json_t *root, const osdtex_context *context, const osdtex_mapping *mapping)
+{
+    const osdtex_cage_info *cage = &mapping->surface->cage->info;
+    const otx_map_request *request = &mapping->request;
+    json_t *options = add_object(root, "options");
+
+    set_text(options, "method", mapping->method->name);
+    set_text(options, "scheme", schemes[cage->scheme]);
+    set_text(options, "boundary", boundaries[cage->boundary]);
+    set_text(options, "fvar", fvars[cage->fvar]);
+    set_int(options, "level", mapping->surface->info.level);
+    set_real(options, "scale", mapping->mapping.scale);
+    set_int(options, "seed", (int64_t)mapping->seed);
+    set_int(options, "threads", otx_pool_threads(context->pool));
+    set_int(options, "memory_limit", (int64_t)context->options.memory_limit);
+    if (request->first_face >= 0)
+    {
+        json_t *first = add_object(options, "first_patch");
+
+        set_int(first, "face", request->first_face);
+        set_real(first, "u", request->first_position.x);
+        set_real(first, "v", request->first_position.y);
+        set_real(first, "angle", request->first_angle * 180.0 / OTX_PI);
+    }
+    put_settings(options, mapping);
+}
+
+static void
+put_colour(
+    json_t *root, const osdtex_context *context, const osdtex_mapping *mapping)
+{
+    const osdtex_exemplar_info *info = &mapping->exemplar->info;
+    json_t *colour = add_object(root, "colour");
+    json_t *decisions = add_array(colour, "decisions");
+    osdtex_diagnostic d;
+
+    set_text(
+        colour, "config",
+        context->colour.path ? context->colour.path : "built in");
+    set_text(colour, "from", info->source_space);
+    set_text(colour, "to", info->linear_space);
+    set_text(colour, "match_space", info->match_space);
+    set_text(colour, "embedding", info->embedding);
+    set(colour, "wrap_x", json_boolean(info->wrap_x));
+    set(colour, "wrap_y", json_boolean(info->wrap_y));
+    for (int32_t i = 0; i < osdtex_diagnostic_count(context); ++i)
+    {
+        osdtex_diagnostic_get(context, i, &d);
+        if (strcmp(d.stage, "colour") == 0)
+            json_array_append_new(decisions, text_of(d.message));
+    }
+}
+
+static void
+put_mapping(json_t *root, const osdtex_mapping *mapping)
+{
+    const otx_map_stats *stats = &mapping->stats;
+    const osdtex_surface_info *surface = &mapping->surface->info;
+    json_t *m = add_object(root, "mapping");
+    json_t *levels = add_array(m, "patches_by_level");
+
+    set_int(m, "leaf_faces", surface->face_count);
+    set_int(m, "leaf_vertices", surface->vert_count);
+    set_real(m, "area", surface->area);
+    set_real(m, "mean_edge_length", surface->mean_edge_length);
+    set_int(m, "patches", mapping->mapping.patch_count);
+    set_int(m, "patches_above_cage", stats->patches[0]);
+    for (int32_t i = 0; i <= surface->level; ++i)
+        json_array_append_new(levels, json_integer(stats->patches[i + 1]));
+    set_int(m, "fits", stats->fit_count);
+    set_int(m, "splits", stats->split_count);
+    set_real(m, "threshold", stats->threshold);
+    set_real(m, "fit_error_mean", stats->fit_error_mean);
+    set_real(m, "cut_before", stats->cut_before);
+    set_real(m, "cut_after", stats->cut_after);
+    set_real(m, "relax_before", stats->relax_before);
+    set_real(m, "relax_after", stats->relax_after);
+}
+
+static void
+put_seams(json_t *root, const otx_measure *measure)
+{
+    json_t *seams = add_object(root, "seams");
+    json_t *windows = add_object(seams, "windows");
+
+    set_real(seams, "energy", measure->seam_energy);
+    set_real(seams, "delta_e_rms", measure->seam_rms);
+    set_real(seams, "delta_e_p50", measure->seam_p50);
+    set_real(seams, "delta_e_p95", measure->seam_p95);
+    set_real(seams, "rms_per_sigma", measure->seam_rms_sigma);
+    set_real(seams, "rms_per_step", measure->seam_rms_step);
+    set_real(seams, "p95_per_sigma", measure->seam_p95_sigma);
+    set_real(seams, "visible_share", measure->seam_visible_share);
+    set_real(seams, "length_texels", measure->seam_length);
+    set_real(seams, "share_of_edges", measure->seam_share);
+    set_real(seams, "per_100_texels", measure->seams_per_100);
+    set_int(windows, "count", measure->windows);
+    set_real(windows, "seam_p50", measure->window_seam_p50);
+    set_real(windows, "seam_p90", measure->window_seam_p90);
+    set_real(windows, "interior_p50", measure->window_interior_p50);
+    set_real(windows, "interior_p90", measure->window_interior_p90);
+}
+
+static void
+put_distortion(json_t *root, const otx_measure *measure)
+{
+    json_t *d = add_object(root, "distortion");
+    json_t *e = add_object(root, "exemplar");
+
+    set_int(d, "flips", measure->flips);
+    set_int(d, "folds", measure->folds);
+    set_int(d, "uncovered", measure->uncovered);
+    set_int(d, "outside", measure->outside);
+    set_real(d, "outside_max_texels", measure->outside_max);
+    set_real(d, "log_area_mean", measure->log_area_mean);
+    set_real(d, "stretch_l2_mean", measure->stretch_l2_mean);
+    set_real(d, "stretch_l2_p95", measure->stretch_l2_p95);
+    set_real(d, "stretch_ratio_mean", measure->stretch_ratio_mean);
+    set_real(d, "stretch_ratio_p95", measure->stretch_ratio_p95);
+    set_real(e, "coverage", measure->coverage);
+    set_real(e, "lab_sigma", measure->lab_sigma);
+    set_real(e, "lab_step", measure->lab_step);
+    set_real(e, "texels_per_unit", measure->density);
+    set_real(e, "area_texels", measure->area);
+}
+
+static void
+put_cost(
+    json_t *root, const osdtex_context *context, const osdtex_mapping *mapping)
+{
+    json_t *seconds = add_object(root, "seconds");
+    json_t *stages = add_object(seconds, "map_stages");
+    json_t *memory = add_object(root, "memory");
+    struct rusage usage;
+
+    for (int32_t i = 0; i < context->time_count; ++i)
+        set_real(seconds, context->times[i].stage, context->times[i].seconds);
+    for (int32_t i = 0; i < mapping->stats.stage_count; ++i)
+        set_real(
+            stages, mapping->stats.stages[i].name,
+            mapping->stats.stages[i].seconds);
+    set_int(memory, "peak_bytes", (int64_t)otx_heap_peak(context->heap));
+    if (getrusage(RUSAGE_SELF, &usage) == 0)
+        set_int(memory, "peak_resident_bytes", 1024 * (int64_t)usage.ru_maxrss);
+}
+
+static void
+put_diagnostics(json_t *root, const osdtex_context *context)
+{
+    static const char *const severities[] = {"info", "warning", "error"};
+    json_t *list = add_array(root, "diagnostics");
+    osdtex_diagnostic d;
+
+    for (int32_t i = 0; i < osdtex_diagnostic_count(context); ++i)
+    {
+        json_t *one = json_object();
+
+        osdtex_diagnostic_get(context, i, &d);
+        set_text(one, "severity", severities[d.severity]);
+        set_text(one, "status", osdtex_status_name(d.status));
+        set_text(one, "stage", d.stage);
+        set_text(one, "file", d.file);
+        set_int(one, "line", d.line);
+        set_int(one, "face", d.face);
+        set_int(one, "vertex", d.vertex);
+        set_int(one, "count", d.count);
+        set_text(one, "message", d.message);
+        json_array_append_new(list, one);
+    }
+}
+
+static void
+release_json(void *root)
+{
+    json_decref(root);
+}
+
+static otx_status
+dump(otx_run *run, const json_t *root, const char *path)
+{
+    otx_where where = OTX_NOWHERE;
+    otx_atomic_file_set *set_of_one;
+    const char *temporary;
+    FILE *file;
+    bool written;
+
+    where.file = path;
+    OTX_TRY(otx_atomic_file_begin(run, run->arena, &set_of_one));
+    OTX_TRY(otx_atomic_file_add(run, set_of_one, path, &temporary));
+    file = fopen(temporary, "w");
+    written = file && json_dumpf(
+                          root, file,
+                          JSON_SORT_KEYS | JSON_INDENT(2) |
+                              JSON_REAL_PRECISION(9)) == 0;
+    written = written && fputc('\n', file) != EOF && fflush(file) == 0;
+    if (file && fclose(file) != 0)
+        written = false;
+    if (!written)
+        return otx_fail(
+            run, OSDTEX_ERROR_IO, "report", where,
+            "the report cannot be written: %s", strerror(errno));
+    return otx_atomic_file_commit(run, set_of_one, false);
+}
+
+static otx_status
+write_report(otx_call *call, const osdtex_mapping *mapping, const char *path)
+{
+    otx_measure_options how = otx_measure_options_default();
+    const osdtex_context *context = call->context;
+    otx_run *run = &call->run;
+    otx_measure measure;
+    json_t *root;
+
+    if (!mapping || !path)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "report", OTX_NOWHERE,
+            "no mapping or no path is given");
+    how.window_count = WINDOWS;
+    run->seed = mapping->seed;
+    OTX_TRY(otx_measure_run(
+        run, &mapping->mapping, &mapping->exemplar->exemplar, &how, &measure));
+    root = json_object();
+    if (!root || !otx_arena_defer(run->arena, release_json, root))
+    {
+        json_decref(root);
+        return otx_fail_memory(run, "report");
+    }
+    set_text(root, "version", osdtex_version());
+    put_inputs(root, mapping);
+    put_options(root, context, mapping);
+    put_colour(root, context, mapping);
+    put_mapping(root, mapping);
+    put_seams(root, &measure);
+    put_distortion(root, &measure);
+    put_cost(root, context, mapping);
+    put_diagnostics(root, context);
+    return dump(run, root, path);
+}
+
+osdtex_status
+osdtex_report_write(
+    osdtex_context *context, const osdtex_mapping *mapping, const char *path)
+{
+    otx_call call;
+
+    OTX_TRY(otx_call_begin(context, "report", &call));
+    return otx_call_drop(&call, write_report(&call, mapping, path));
+}
