@@ -10,7 +10,7 @@
 enum
 {
     /* Light rays of each kind to a pixel, at least. */
-    PIXEL_RAYS = 16
+    PIXEL_RAYS = 32
 };
 
 /* Corners whose normal is further than this from the triangle's lie on a
@@ -67,9 +67,10 @@ prepare_stretch(otx_run *run, otx_shade *out)
     mean = otx_distortion_mean(out->scene, out->stretch, &flipped);
     otx_note(
         run, OSDTEX_SEVERITY_INFO, "render", OTX_NOWHERE,
-        "mean stretch %.3f (white is 1, blue 0.5, red 2); %lld faces flipped "
-        "or without area in UV (magenta)",
-        mean, (long long)flipped);
+        "mean stretch %.3f (white is 1, blue %.2f, red %.2f); %lld faces are "
+        "flipped or without area in UV (magenta)",
+        mean, 1.0 / OTX_TINT_STRETCH_FULL, OTX_TINT_STRETCH_FULL,
+        (long long)flipped);
     return OSDTEX_OK;
 }
 

@@ -38,15 +38,15 @@ void
 otx_tint_stretch(double stretch, float rgb[3])
 {
     static const float BLUE[3] = {0.02f, 0.09f, 0.55f};
-    static const float WHITE[3] = {0.75f, 0.75f, 0.75f};
+    static const float WHITE[3] = {0.62f, 0.62f, 0.62f};
     static const float RED[3] = {0.60f, 0.03f, 0.02f};
     static const float BROKEN[3] = {0.80f, 0.0f, 0.80f};
-    const double octaves = log2(stretch);
+    const double steps = log(stretch) / log(OTX_TINT_STRETCH_FULL);
 
-    if (!isfinite(octaves))
+    if (!isfinite(steps))
         mix(BROKEN, BROKEN, 0.0, rgb);
-    else if (octaves < 0.0)
-        mix(WHITE, BLUE, fmin(1.0, -octaves), rgb);
+    else if (steps < 0.0)
+        mix(WHITE, BLUE, fmin(1.0, -steps), rgb);
     else
-        mix(WHITE, RED, fmin(1.0, octaves), rgb);
+        mix(WHITE, RED, fmin(1.0, steps), rgb);
 }
