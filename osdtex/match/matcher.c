@@ -1,0 +1,213 @@
+/* matcher.c -- the exemplar's side of the search, and the exact score. */
+#include "match/matcher.h"
+
+enum
+{
+    SMALLEST_SIDE = 16 /* of the coarsest level, pixels */
+};
+
+static void
+mean_color(const otx_image *image, double mean[OTX_PLANE_LANES])
+{
+    const double count = (double)image->width * image->height;
+
+    for (int32_t k = 0; k < OTX_PLANE_LANES; ++k)
+        mean[k] = 0.0;
+    for (int32_t y = 0; y < image->height; ++y)
+        for (int32_t x = 0; x < image->width; ++x)
+            for (int32_t k = 0; k < image->channels; ++k)
+                mean[k] += (double)otx_image_at(image, x, y)[k];
+    for (int32_t k = 0; k < OTX_PLANE_LANES; ++k)
+        mean[k] /= count;
+}
+
+static int32_t
+count_levels(int32_t width, int32_t height)
+{
+    const int32_t side = width < height ? width : height;
+    int32_t count = 1;
+
+    while (count < OTX_MATCHER_MAX_LEVELS && (side >> count) >= SMALLEST_SIDE)
+        ++count;
+    return count;
+}
+
+static otx_status
+check_image(otx_run *run, const otx_image *match, double sigma)
+{
+    if (match->width < 1 || match->height < 1 || match->channels < 1 ||
+        match->channels > OTX_PLANE_LANES)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "match", OTX_NOWHERE,
+            "An image to match has 1 to %d channels and is not empty; this "
+            "one is %d x %d with %d channels.",
+            OTX_PLANE_LANES, match->width, match->height, match->channels);
+    if (!(sigma >= 0.0) || isinf(sigma))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "match", OTX_NOWHERE,
+            "The contrast of the exemplar (sigma) must be a finite number, 0 "
+            "or more.");
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_matcher_create(
+    otx_run *run, const otx_image *match, bool wrap_x, bool wrap_y,
+    double sigma, int32_t finest_level, otx_matcher **out)
+{
+    double mean[OTX_PLANE_LANES];
+    otx_matcher *matcher;
+
+    *out = NULL;
+    OTX_TRY(check_image(run, match, sigma));
+    matcher = OTX_ZNEW(run->arena, otx_matcher, 1);
+    if (!matcher)
+        return otx_fail_memory(run, "match");
+    matcher->width = match->width;
+    matcher->height = match->height;
+    matcher->wrap_x = wrap_x;
+    matcher->wrap_y = wrap_y;
+    matcher->sigma = sigma;
+    matcher->level_count = count_levels(match->width, match->height);
+    if (finest_level >= matcher->level_count)
+        finest_level = matcher->level_count - 1;
+    matcher->finest_level = finest_level < 0 ? 0 : finest_level;
+    mean_color(match, mean);
+    for (int32_t l = 0; l < matcher->level_count; ++l)
+        OTX_TRY(otx_plane_create(
+            run, match, wrap_x, wrap_y, l, mean, l >= matcher->finest_level,
+            &matcher->planes[l]));
+    *out = matcher;
+    return OSDTEX_OK;
+}
+
+/* Shifts that keep [low, high] inside [margin, size - margin]. */
+static void
+limit_axis(
+    double low, double high, double margin, int32_t size, double *shift_low,
+    double *shift_high)
+{
+    *shift_low = fmax(*shift_low, margin - low);
+    *shift_high = fmin(*shift_high, size - margin - high);
+}
+
+otx_matcher_range
+otx_matcher_shifts(
+    const otx_matcher *matcher, const otx_mask *mask,
+    const otx_match_query *query, double angle)
+{
+    const otx_mask_frame frame = {
+        .rotation = otx_vec2_polar(angle), .pixel = {1.0, 1.0}};
+    const otx_mask_box box = otx_mask_bounds(mask, &frame);
+    otx_matcher_range range = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
+
+    if (!matcher->wrap_x)
+        limit_axis(
+            box.low.x, box.high.x, 0.0, matcher->width, &range.low.x,
+            &range.high.x);
+    if (!matcher->wrap_y)
+        limit_axis(
+            box.low.y, box.high.y, 0.0, matcher->height, &range.low.y,
+            &range.high.y);
+    for (int32_t i = 0; i < query->cover_count; ++i)
+    {
+        const otx_vec2 p = otx_mask_place(&frame, query->cover[i]);
+
+        if (!matcher->wrap_x)
+            limit_axis(
+                p.x, p.x, 0.5, matcher->width, &range.low.x, &range.high.x);
+        if (!matcher->wrap_y)
+            limit_axis(
+                p.y, p.y, 0.5, matcher->height, &range.low.y, &range.high.y);
+    }
+    return range;
+}
+
+double
+otx_matcher_penalty(
+    const otx_matcher *matcher, const otx_match_query *query, otx_vec2 landing)
+{
+    if (!query->usage)
+        return 1.0;
+    const int32_t i = otx_matcher_usage_cell(
+        landing.x, matcher->width, matcher->wrap_x, query->usage_width);
+    const int32_t j = otx_matcher_usage_cell(
+        landing.y, matcher->height, matcher->wrap_y, query->usage_height);
+
+    return 1.0 +
+           query->usage_weight *
+               (double)query
+                   ->usage[(size_t)j * (size_t)query->usage_width + (size_t)i];
+}
+
+typedef struct scorer
+{
+    const otx_plane *plane;
+    double sum;
+    double weight;
+} scorer;
+
+static void
+score_span(void *context, const otx_mask_span *span)
+{
+    scorer *s = context;
+    const otx_plane *plane = s->plane;
+    const int32_t y =
+        otx_plane_wrap_index(span->y, plane->height, plane->wrap_y);
+    double sum = 0.0, weights = 0.0;
+
+    for (int32_t n = 0; n < span->count; ++n)
+    {
+        const int32_t x =
+            otx_plane_wrap_index(span->x + n, plane->width, plane->wrap_x);
+        const float *texel = otx_plane_at(plane, x, y);
+        const double weight = fmax(0.0, span->weight + n * span->weight_step);
+        double square = 0.0;
+        float color[OTX_PLANE_LANES];
+
+        otx_plane_sample(
+            plane,
+            otx_plane_wrap(
+                span->source.x + n * span->source_step.x, plane->width,
+                plane->wrap_x),
+            otx_plane_wrap(
+                span->source.y + n * span->source_step.y, plane->height,
+                plane->wrap_y),
+            color);
+        for (int k = 0; k < OTX_PLANE_LANES; ++k)
+        {
+            const double d = (double)(color[k] - texel[k]);
+
+            square += d * d;
+        }
+        sum += weight * square;
+        weights += weight;
+    }
+    s->sum += sum;
+    s->weight += weights;
+}
+
+double
+otx_matcher_square(
+    const otx_matcher *matcher, const otx_mask *mask,
+    const otx_match *placement)
+{
+    const otx_mask_frame frame = {
+        .rotation = otx_vec2_polar(placement->angle),
+        .shift = placement->shift,
+        .pixel = {1.0, 1.0}};
+    scorer s = {.plane = &matcher->planes[0]};
+
+    otx_mask_draw(mask, &frame, score_span, &s);
+    return s.weight > 0.0 ? s.sum / s.weight : INFINITY;
+}
+
+double
+otx_matcher_score(
+    const otx_matcher *matcher, const otx_mask *mask,
+    const otx_match *placement)
+{
+    const double rms = sqrt(otx_matcher_square(matcher, mask, placement));
+
+    return matcher->sigma > 0.0 ? rms / matcher->sigma : rms;
+}

@@ -1,0 +1,110 @@
+/* peaks.c -- one pass with a falling threshold.
+ *
+ * The result is a property of the map alone, not of the order of the pass:
+ * local minima are defined by their neighbourhood, so that suppression cannot
+ * depend on who was seen first. */
+#include "match/peaks.h"
+
+enum
+{
+    RADIUS = 2
+};
+
+static bool
+comes_before(const otx_peak *a, const otx_peak *b)
+{
+    if (a->value != b->value)
+        return a->value < b->value;
+    if (a->angle != b->angle)
+        return a->angle < b->angle;
+    return a->y != b->y ? a->y < b->y : a->x < b->x;
+}
+
+void
+otx_peaks_insert(otx_peaks *peaks, const otx_peak *peak)
+{
+    int32_t at = peaks->count;
+
+    if (at == peaks->capacity)
+    {
+        if (at == 0 || !comes_before(peak, &peaks->list[at - 1]))
+            return;
+        --at;
+    }
+    else
+        ++peaks->count;
+    for (; at > 0 && comes_before(peak, &peaks->list[at - 1]); --at)
+        peaks->list[at] = peaks->list[at - 1];
+    peaks->list[at] = *peak;
+}
+
+/* The neighbour's coordinate; false where there is none. */
+static bool
+step_axis(int32_t *at, int32_t step, int32_t begin, int32_t end, bool wrap)
+{
+    const int32_t period = end - begin;
+
+    *at += step;
+    if (wrap)
+        *at = begin + ((*at - begin) % period + period) % period;
+    return *at >= begin && *at < end;
+}
+
+static bool
+is_minimum(const otx_peaks_map *map, int32_t x, int32_t y)
+{
+    const float value = map->values[(size_t)y * map->stride + (size_t)x];
+
+    for (int32_t dy = -RADIUS; dy <= RADIUS; ++dy)
+    {
+        int32_t j = y;
+
+        if (!step_axis(&j, dy, map->y_begin, map->y_end, map->wrap_y))
+            continue;
+        for (int32_t dx = -RADIUS; dx <= RADIUS; ++dx)
+        {
+            int32_t i = x;
+
+            if (!step_axis(&i, dx, map->x_begin, map->x_end, map->wrap_x))
+                continue;
+            const float other =
+                map->values[(size_t)j * map->stride + (size_t)i];
+            const bool first = j != y ? j < y : i < x;
+
+            if (other < value || (other == value && first))
+                return false;
+        }
+    }
+    return true;
+}
+
+void
+otx_peaks_scan(
+    const otx_peaks_map *map, int32_t angle, double offset, double scale,
+    otx_peaks *peaks)
+{
+    /* Map value below which a pixel could enter the list. Rounded upwards:
+     * the insertion decides exactly. */
+    float limit = INFINITY;
+
+    for (int32_t y = map->y_begin; y < map->y_end; ++y)
+    {
+        const float *row = map->values + (size_t)y * map->stride;
+
+        for (int32_t x = map->x_begin; x < map->x_end; ++x)
+        {
+            if (!(row[x] <= limit) || !is_minimum(map, x, y))
+                continue;
+            otx_peaks_insert(
+                peaks, &(otx_peak){
+                           .value = offset + scale * (double)row[x],
+                           .angle = angle,
+                           .y = y,
+                           .x = x});
+            if (peaks->count == peaks->capacity)
+                limit = nextafterf(
+                    (float)((peaks->list[peaks->count - 1].value - offset) / scale),
+                    INFINITY);
+        }
+    }
+}

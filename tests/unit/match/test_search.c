@@ -1,0 +1,603 @@
+/* test_search.c -- what is found is what a direct search would find. */
+#include "scene.h"
+
+#include "match/exhaust.h"
+
+#include <stdlib.h>
+
+enum
+{
+    ANGLES = 19,
+    MAX_PIXELS = 4096
+};
+
+static void
+make_angles(double angles[ANGLES], double first)
+{
+    for (int k = 0; k < ANGLES; ++k)
+        angles[k] = first + 2.0 * OTX_PI * k / ANGLES;
+}
+
+static void
+expect_shift(
+    const otx_matcher *m, otx_vec2 found, otx_vec2 wanted, double tolerance)
+{
+    double dx = found.x - wanted.x;
+    double dy = found.y - wanted.y;
+
+    if (m->wrap_x)
+        dx -= m->width * floor(dx / m->width + 0.5);
+    if (m->wrap_y)
+        dy -= m->height * floor(dy / m->height + 0.5);
+    assert_true(fabs(dx) <= tolerance && fabs(dy) <= tolerance);
+}
+
+/* --------------------------------------------- Fourier against brute force */
+
+typedef struct pixels
+{
+    const otx_plane *plane;
+    int32_t count;
+    int32_t x[MAX_PIXELS], y[MAX_PIXELS];
+    float color[MAX_PIXELS][OTX_PLANE_LANES];
+} pixels;
+
+static void
+collect_pixels(void *context, const otx_mask_span *span)
+{
+    pixels *p = context;
+    const otx_plane *plane = p->plane;
+
+    for (int32_t n = 0; n < span->count; ++n)
+    {
+        const double x =
+            (span->source.x + n * span->source_step.x) / plane->pixel.x;
+        const double y =
+            (span->source.y + n * span->source_step.y) / plane->pixel.y;
+
+        assert_true(p->count < MAX_PIXELS);
+        p->x[p->count] = span->x + n;
+        p->y[p->count] = span->y;
+        otx_plane_sample(
+            plane, otx_plane_wrap(x, plane->width, plane->wrap_x),
+            otx_plane_wrap(y, plane->height, plane->wrap_y),
+            p->color[p->count++]);
+    }
+}
+
+/* Mean square over the pixels, moved by (dx, dy). */
+static double
+direct_error(const pixels *p, int32_t dx, int32_t dy)
+{
+    double sum = 0.0;
+
+    for (int32_t n = 0; n < p->count; ++n)
+    {
+        const float *t = otx_plane_at(
+            p->plane, otx_plane_wrap_index(p->x[n] + dx, p->plane->width, true),
+            otx_plane_wrap_index(p->y[n] + dy, p->plane->height, true));
+
+        for (int k = 0; k < 3; ++k)
+            sum += (double)(p->color[n][k] - t[k]) *
+                   (double)(p->color[n][k] - t[k]);
+    }
+    return sum / p->count;
+}
+
+static void
+check_map(int32_t width, int32_t height, bool wrap, int32_t level, double cell)
+{
+    otx_run *run = test_run_create();
+    const otx_image image = scene_exemplar(run, width, height);
+    otx_matcher *matcher = scene_matcher(run, &image, wrap);
+    const otx_plane *plane = &matcher->planes[level];
+    const double angles[3] = {0.0, 0.5, 2.8};
+    const double bound = 1e-4 * matcher->sigma * matcher->sigma;
+    const otx_match_query query = otx_match_query_defaults(angles, 3);
+    otx_exhaust_buffers buffers;
+    pixels *p = OTX_NEW(run->arena, pixels, 1);
+    scene_mask scene;
+
+    /* The source differs from every placement that is searched. */
+    scene_mask_make(
+        &scene, (otx_vec2){-3.0, 5.0}, cell, 1.9,
+        (otx_vec2){0.5 * width, 0.4 * height});
+    assert_int_equal(
+        otx_exhaust_buffers_create(run->arena, plane, &buffers), OSDTEX_OK);
+    for (int a = 0; a < 3; ++a)
+    {
+        const otx_mask_frame frame = {
+            .rotation = otx_vec2_polar(angles[a]), .pixel = plane->pixel};
+        const otx_matcher_range range =
+            otx_matcher_shifts(matcher, &scene.mask, &query, angles[a]);
+        int compared = 0;
+
+        p->plane = plane;
+        p->count = 0;
+        otx_mask_draw(&scene.mask, &frame, collect_pixels, p);
+        const otx_exhaust_sums sums =
+            otx_exhaust_map(plane, &scene.mask, angles[a], &buffers);
+
+        assert_true(fabs(sums.weight - p->count) < 1e-6);
+        for (int32_t y = 0; y < plane->height; ++y)
+            for (int32_t x = 0; x < plane->width; ++x)
+            {
+                const int32_t dx = x - sums.base_x;
+                const int32_t dy = y - sums.base_y;
+                const otx_vec2 shift = {
+                    dx * plane->pixel.x, dy * plane->pixel.y};
+                const double value =
+                    (sums.energy +
+                     (double)buffers.map
+                         [(size_t)y * otx_fft_stride(plane->fft) + (size_t)x]) /
+                    sums.weight;
+
+                if (!otx_matcher_allows(&range, shift))
+                    continue;
+                assert_true(fabs(value - direct_error(p, dx, dy)) < bound);
+                ++compared;
+            }
+        assert_true(compared > 0);
+    }
+    test_run_destroy(run);
+}
+
+static void
+fourier_equals_brute_force(void **state)
+{
+    (void)state;
+    check_map(48, 48, true, 0, 3.0);
+    check_map(37, 41, true, 0, 2.3);
+    check_map(45, 33, true, 1, 3.7);
+    check_map(48, 48, false, 0, 3.0);
+    check_map(61, 53, false, 0, 3.1);
+    check_map(61, 53, false, 1, 4.0);
+}
+
+/* Larger than the exemplar: folded, and still the sum over all its texels. */
+static void
+a_mask_larger_than_the_tile_is_folded(void **state)
+{
+    (void)state;
+    check_map(24, 20, true, 0, 7.0);
+}
+
+/* ------------------------------------------------------ planted patches */
+
+/* Cut out where a placement of the query puts it, at whole texels. */
+static void
+check_planted(
+    int32_t width, int32_t height, bool wrap, int32_t coarse_levels,
+    bool gauss_newton, double tolerance)
+{
+    otx_run *run = test_run_create();
+    const otx_image image = scene_exemplar(run, width, height);
+    otx_matcher *matcher = scene_matcher(run, &image, wrap);
+    double angles[ANGLES];
+    otx_match_query query = otx_match_query_defaults(angles, ANGLES);
+    scene_mask scene;
+
+    make_angles(angles, 0.1);
+    query.coarse_levels = coarse_levels;
+    query.gauss_newton = gauss_newton;
+    query.centre = (otx_vec2){12.0, 12.0};
+    for (int k = 0; k < ANGLES; ++k)
+    {
+        const otx_vec2 shift = {
+            wrap ? width - 9.0 : floor(0.5 * width),
+            wrap ? 31.0 : floor(0.5 * height)};
+        otx_match best[3];
+        int32_t count;
+
+        scene_mask_make(
+            &scene, (otx_vec2){wrap ? 3.0 : -12.0, wrap ? 4.0 : -12.0}, 4.0,
+            angles[k], shift);
+        assert_int_equal(
+            otx_matcher_search(
+                run, matcher, &scene.mask, &query, best, 3, &count),
+            OSDTEX_OK);
+        assert_true(count >= 1);
+        assert_true(fabs(best[0].angle - angles[k]) <= tolerance);
+        expect_shift(matcher, best[0].shift, shift, 50.0 * tolerance);
+        assert_true(best[0].error < 1e-3);
+        for (int32_t i = 1; i < count; ++i)
+            assert_true(best[i].error >= best[i - 1].error);
+        /* The error returned is the exact score. */
+        for (int32_t i = 0; i < count; ++i)
+            assert_true(
+                fabs(
+                    best[i].error -
+                    otx_matcher_score(matcher, &scene.mask, &best[i])) < 1e-6);
+    }
+    test_run_destroy(run);
+}
+
+static void
+a_planted_patch_is_found_at_full_resolution(void **state)
+{
+    (void)state;
+    check_planted(80, 80, true, 0, false, 0.0);
+    check_planted(77, 91, true, 0, false, 0.0);
+    check_planted(90, 83, false, 0, false, 0.0);
+}
+
+static void
+a_planted_patch_is_found_coarse_to_fine(void **state)
+{
+    (void)state;
+    check_planted(96, 80, true, 1, false, 0.0);
+    check_planted(77, 91, true, 1, false, 0.0);
+    check_planted(90, 83, false, 1, false, 0.0);
+    check_planted(96, 80, true, 1, true, 0.002);
+}
+
+/* Off the lattice of texels and angles, only Gauss-Newton gets there. */
+static void
+gauss_newton_goes_below_the_texel(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_image image = scene_exemplar(run, 96, 96);
+    otx_matcher *matcher = scene_matcher(run, &image, true);
+    const double angles[2] = {0.4, 2.0};
+    otx_match_query query = otx_match_query_defaults(angles, 2);
+    const otx_vec2 shift = {40.3, 51.7};
+    scene_mask scene;
+    otx_match rough, best;
+    int32_t count;
+
+    (void)state;
+    scene_mask_make(&scene, (otx_vec2){-12.0, -12.0}, 4.0, 0.42, shift);
+    assert_int_equal(
+        otx_matcher_search(
+            run, matcher, &scene.mask, &query, &rough, 1, &count),
+        OSDTEX_OK);
+    query.gauss_newton = true;
+    assert_int_equal(
+        otx_matcher_search(run, matcher, &scene.mask, &query, &best, 1, &count),
+        OSDTEX_OK);
+    assert_true(best.error < 0.5 * rough.error);
+    assert_true(fabs(best.angle - 0.42) < 0.005);
+    expect_shift(matcher, best.shift, shift, 0.1);
+    test_run_destroy(run);
+}
+
+/* --------------------------------------------------------------- bounds */
+
+static void
+check_bounds(int32_t coarse_levels, bool gauss_newton)
+{
+    otx_run *run = test_run_create();
+    const otx_image image = scene_exemplar(run, 75, 66);
+    otx_matcher *matcher = scene_matcher(run, &image, false);
+    const otx_vec2 cover[4] = {
+        {-14.0, -14.0}, {20.0, -14.0}, {20.0, 20.0}, {-14.0, 20.0}};
+    double angles[ANGLES];
+    otx_match_query query = otx_match_query_defaults(angles, ANGLES);
+    otx_match best[8];
+    scene_mask scene;
+    int32_t count;
+
+    make_angles(angles, 0.3);
+    query.coarse_levels = coarse_levels;
+    query.gauss_newton = gauss_newton;
+    query.cover = cover;
+    query.cover_count = 4;
+    scene_mask_make(
+        &scene, (otx_vec2){-13.0, -13.0}, 4.0, 1.0, (otx_vec2){37.0, 33.0});
+    assert_int_equal(
+        otx_matcher_search(run, matcher, &scene.mask, &query, best, 8, &count),
+        OSDTEX_OK);
+    assert_int_equal(count, 8);
+    for (int32_t i = 0; i < count; ++i)
+        for (int c = 0; c < 4; ++c)
+        {
+            const otx_vec2 p = otx_vec2_add(
+                otx_vec2_mul(otx_vec2_polar(best[i].angle), cover[c]),
+                best[i].shift);
+
+            assert_true(p.x >= 0.5 - 1e-9 && p.x <= 74.5 + 1e-9);
+            assert_true(p.y >= 0.5 - 1e-9 && p.y <= 65.5 + 1e-9);
+        }
+    test_run_destroy(run);
+}
+
+static void
+matches_stay_inside_what_does_not_tile(void **state)
+{
+    (void)state;
+    check_bounds(0, false);
+    check_bounds(1, false);
+    check_bounds(1, true);
+}
+
+static void
+what_does_not_fit_gives_no_match(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_image image = scene_exemplar(run, 40, 40);
+    otx_matcher *matcher = scene_matcher(run, &image, false);
+    const double angle = 0.2;
+    otx_match_query query = otx_match_query_defaults(&angle, 1);
+    otx_match best;
+    scene_mask scene;
+    int32_t count = -1;
+
+    (void)state;
+    scene_mask_make(
+        &scene, (otx_vec2){0.0, 0.0}, 9.0, 0.0, (otx_vec2){0.0, 0.0});
+    assert_int_equal(
+        otx_matcher_search(run, matcher, &scene.mask, &query, &best, 1, &count),
+        OSDTEX_OK);
+    assert_int_equal(count, 0);
+    test_run_destroy(run);
+}
+
+/* ---------------------------------------------------------- corner cases */
+
+static void
+an_empty_mask_is_the_callers_mistake(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_image image = scene_exemplar(run, 32, 32);
+    otx_matcher *matcher = scene_matcher(run, &image, true);
+    const double angle = 0.0;
+    const otx_match_query query = otx_match_query_defaults(&angle, 1);
+    const otx_mask empty = {NULL, 0};
+    scene_mask scene;
+    otx_match best;
+    int32_t count;
+
+    (void)state;
+    assert_int_equal(
+        otx_matcher_search(run, matcher, &empty, &query, &best, 1, &count),
+        OSDTEX_ERROR_ARGUMENT);
+    assert_non_null(strstr(test_last_message(run), "mask is empty"));
+    assert_int_equal(count, 0);
+
+    /* All weights 0: nothing to compare, and nothing wrong. */
+    scene_mask_make(
+        &scene, (otx_vec2){0.0, 0.0}, 3.0, 0.0, (otx_vec2){0.0, 0.0});
+    for (int32_t t = 0; t < scene.mask.triangle_count; ++t)
+        memset(scene.triangles[t].weight, 0, sizeof(float[3]));
+    assert_int_equal(
+        otx_matcher_search(run, matcher, &scene.mask, &query, &best, 1, &count),
+        OSDTEX_OK);
+    assert_int_equal(count, 0);
+
+    scene.triangles[0].flat[0].x = NAN;
+    assert_int_equal(
+        otx_matcher_search(run, matcher, &scene.mask, &query, &best, 1, &count),
+        OSDTEX_ERROR_ARGUMENT);
+    test_run_destroy(run);
+}
+
+static void
+one_triangle_is_enough(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_image image = scene_exemplar(run, 64, 64);
+    otx_matcher *matcher = scene_matcher(run, &image, true);
+    const double angles[2] = {0.0, 1.0};
+    const otx_match_query query = otx_match_query_defaults(angles, 2);
+    const otx_mask_triangle triangle = {
+        .flat = {{0, 0}, {9, 0}, {0, 9}},
+        .source = {{20, 58}, {29, 58}, {20, 67}},
+        .weight = {1, 1, 1}};
+    const otx_mask mask = {&triangle, 1};
+    otx_match best;
+    int32_t count;
+
+    (void)state;
+    assert_int_equal(
+        otx_matcher_search(run, matcher, &mask, &query, &best, 1, &count),
+        OSDTEX_OK);
+    assert_int_equal(count, 1);
+    assert_true(best.error < 1e-5);
+    expect_shift(matcher, best.shift, (otx_vec2){20.0, 58.0}, 0.0);
+    test_run_destroy(run);
+}
+
+static void
+a_constant_exemplar_matches_everywhere(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_image image = scene_exemplar(run, 32, 32);
+    const double angle = 0.5;
+    const otx_match_query query = otx_match_query_defaults(&angle, 1);
+    otx_matcher *matcher;
+    scene_mask scene;
+    otx_match best;
+    int32_t count;
+
+    (void)state;
+    for (int i = 0; i < 32 * 32 * 3; ++i)
+        image.pixels[i] = 0.25f;
+    assert_int_equal(
+        otx_matcher_create(run, &image, true, true, 0.0, 0, &matcher),
+        OSDTEX_OK);
+    scene_mask_make(
+        &scene, (otx_vec2){0.0, 0.0}, 3.0, 0.0, (otx_vec2){0.0, 0.0});
+    assert_int_equal(
+        otx_matcher_search(run, matcher, &scene.mask, &query, &best, 1, &count),
+        OSDTEX_OK);
+    assert_int_equal(count, 1);
+    assert_true(best.error == 0.0);
+    assert_true(isfinite(best.shift.x) && isfinite(best.shift.y));
+    test_run_destroy(run);
+}
+
+/* A penalty where the planted patch lies drives the match elsewhere. */
+static void
+usage_moves_the_match(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_image image = scene_exemplar(run, 64, 64);
+    otx_matcher *matcher = scene_matcher(run, &image, true);
+    const double angle = 0.0;
+    otx_match_query query = otx_match_query_defaults(&angle, 1);
+    float usage[16] = {0};
+    scene_mask scene;
+    otx_match best[2];
+    int32_t count;
+
+    (void)state;
+    scene_mask_make(
+        &scene, (otx_vec2){0.0, 0.0}, 3.0, 0.01, (otx_vec2){20.0, 20.0});
+    query.centre = (otx_vec2){9.0, 9.0}; /* lands at (29, 29): cell (1, 1) */
+    for (int32_t level = 0; level < 2; ++level)
+    {
+        query.coarse_levels = level;
+        query.usage = NULL;
+        assert_int_equal(
+            otx_matcher_search(
+                run, matcher, &scene.mask, &query, best, 2, &count),
+            OSDTEX_OK);
+        expect_shift(matcher, best[0].shift, (otx_vec2){20.0, 20.0}, 0.0);
+        usage[5] = 1.0f;
+        query.usage = usage;
+        query.usage_width = 4;
+        query.usage_height = 4;
+        query.usage_weight = 1e6;
+        assert_int_equal(
+            otx_matcher_search(
+                run, matcher, &scene.mask, &query, best, 2, &count),
+            OSDTEX_OK);
+        assert_int_equal(count, 2);
+        for (int32_t i = 0; i < 2; ++i)
+        {
+            const double x = best[i].shift.x + 9.0;
+            const double y = best[i].shift.y + 9.0;
+
+            assert_false(x >= 16.0 && x < 32.0 && y >= 16.0 && y < 32.0);
+        }
+    }
+    test_run_destroy(run);
+}
+
+/* --------------------------------------------------------- determinism */
+
+static void
+search_with_threads(int32_t threads, otx_match best[6], int32_t *count)
+{
+    otx_run *run = test_run_create_with(NULL, threads < 1 ? 1 : threads);
+    const otx_image image = scene_exemplar(run, 90, 70);
+    otx_matcher *matcher = scene_matcher(run, &image, true);
+    double angles[ANGLES];
+    otx_match_query query = otx_match_query_defaults(angles, ANGLES);
+    scene_mask scene;
+
+    make_angles(angles, 0.77);
+    query.gauss_newton = true;
+    scene_mask_make(
+        &scene, (otx_vec2){2.0, 3.0}, 4.0, 0.05, (otx_vec2){11.0, 12.0});
+    memset(best, 0, 6 * sizeof *best);
+    if (threads == 0)
+        assert_int_equal(
+            otx_matcher_search_serial(
+                run->scratch, matcher, &scene.mask, &query, best, 6, count),
+            OSDTEX_OK);
+    else
+        assert_int_equal(
+            otx_matcher_search(
+                run, matcher, &scene.mask, &query, best, 6, count),
+            OSDTEX_OK);
+    test_run_destroy(run);
+}
+
+static void
+threads_do_not_change_a_bit(void **state)
+{
+    const int32_t threads[] = {0, 2, 8};
+    otx_match one[6], other[6];
+    int32_t count_one, count_other;
+
+    (void)state;
+    search_with_threads(1, one, &count_one);
+    assert_true(count_one > 1);
+    for (int i = 0; i < 3; ++i)
+    {
+        search_with_threads(threads[i], other, &count_other);
+        assert_int_equal(count_other, count_one);
+        assert_memory_equal(one, other, sizeof one);
+    }
+}
+
+/* ------------------------------------------------------- out of memory */
+
+typedef struct budget
+{
+    int64_t left;
+} budget;
+
+static void *
+alloc_within(void *user, size_t bytes)
+{
+    budget *b = user;
+
+    return b->left-- > 0 ? malloc(bytes) : NULL;
+}
+
+static void
+release_block(void *user, void *block, size_t bytes)
+{
+    (void)user;
+    (void)bytes;
+    free(block);
+}
+
+static void
+running_out_of_memory_is_a_status(void **state)
+{
+    budget b = {.left = INT64_MAX};
+    const otx_heap_hooks hooks = {alloc_within, release_block, &b, 0};
+    bool done = false;
+
+    (void)state;
+    for (int64_t allowed = 0; !done; ++allowed)
+    {
+        b.left = INT64_MAX;
+        otx_run *run = test_run_create_with(&hooks, 1);
+        const otx_image image = scene_exemplar(run, 64, 64);
+        const double angle = 0.3;
+        const otx_match_query query = otx_match_query_defaults(&angle, 1);
+        otx_matcher *matcher;
+        scene_mask scene;
+        otx_match best;
+        int32_t count;
+        otx_status status;
+
+        scene_mask_make(
+            &scene, (otx_vec2){0.0, 0.0}, 4.0, 0.0, (otx_vec2){9.0, 9.0});
+        b.left = allowed;
+        status = otx_matcher_create(run, &image, true, true, 1.0, 0, &matcher);
+        if (status == OSDTEX_OK)
+            status = otx_matcher_search(
+                run, matcher, &scene.mask, &query, &best, 1, &count);
+        assert_true(status == OSDTEX_OK || status == OSDTEX_ERROR_MEMORY);
+        done = status == OSDTEX_OK;
+        b.left = INT64_MAX;
+        test_run_destroy(run);
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fourier_equals_brute_force),
+        cmocka_unit_test(a_mask_larger_than_the_tile_is_folded),
+        cmocka_unit_test(a_planted_patch_is_found_at_full_resolution),
+        cmocka_unit_test(a_planted_patch_is_found_coarse_to_fine),
+        cmocka_unit_test(gauss_newton_goes_below_the_texel),
+        cmocka_unit_test(matches_stay_inside_what_does_not_tile),
+        cmocka_unit_test(what_does_not_fit_gives_no_match),
+        cmocka_unit_test(an_empty_mask_is_the_callers_mistake),
+        cmocka_unit_test(one_triangle_is_enough),
+        cmocka_unit_test(a_constant_exemplar_matches_everywhere),
+        cmocka_unit_test(usage_moves_the_match),
+        cmocka_unit_test(threads_do_not_change_a_bit),
+        cmocka_unit_test(running_out_of_memory_is_a_status),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
