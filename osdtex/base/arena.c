@@ -1,7 +1,8 @@
 /* arena.c -- chained blocks over a counting heap.
  *
- * Blocks are at least 64 KiB; a larger request gets a block of its own, so
- * releasing a mark returns large temporaries to the system at once. */
+ * Blocks start small and double up to 1 MiB, so that thousands of small arenas
+ * are cheap; a larger request gets a block of its own, so that releasing a
+ * mark returns large temporaries to the system at once. */
 #include "base/arena.h"
 
 #include <stdatomic.h>
@@ -11,7 +12,8 @@
 enum
 {
     ALIGNMENT = 64,
-    BLOCK_BYTES = 65536
+    FIRST_BLOCK_BYTES = 4096,
+    LAST_BLOCK_BYTES = 1 << 20
 };
 
 struct otx_heap
@@ -181,8 +183,15 @@ otx_arena_destroy(otx_arena *arena)
 static bool
 grow(otx_arena *arena, size_t bytes)
 {
-    const size_t capacity = bytes > BLOCK_BYTES ? bytes : BLOCK_BYTES;
+    size_t capacity = FIRST_BLOCK_BYTES;
     chunk *b;
+
+    if (arena->last)
+        capacity = 2 * arena->last->capacity;
+    if (capacity > LAST_BLOCK_BYTES)
+        capacity = LAST_BLOCK_BYTES;
+    if (capacity < bytes)
+        capacity = bytes;
 
     if (capacity > SIZE_MAX - sizeof(chunk) - ALIGNMENT)
         return false;

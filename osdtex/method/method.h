@@ -35,6 +35,9 @@ typedef struct otx_map_stats
     double relax_before, relax_after;
 } otx_map_stats;
 
+/* Ends the stage that is running and starts the next; NULL only ends. */
+void otx_map_stats_stage(otx_map_stats *stats, const char *name);
+
 /* What every method is asked, whatever its settings. */
 typedef struct otx_map_request
 {

@@ -1,0 +1,312 @@
+/* fit.c -- mask, search, commit [Soler02, sec. 4].
+ *
+ * The mask is what the textured part of the collar shows, in the plane of the
+ * chart. The paper takes a narrow band of it at full weight; here the band
+ * counts fully and the rest of the collar with a weight that falls off, since
+ * a wider view tells structures apart that agree along the border. */
+#include "method/hierarchical/hierarchical.h"
+
+#include "base/random.h"
+
+enum
+{
+    STAGE_ANGLE = 0x616e676c,
+    STAGE_PLACE = 0x706c6163
+};
+
+/* -- mask ---------------------------------------------------------------- */
+
+static double
+mask_weight(double reach, double band, double collar)
+{
+    if (reach <= band)
+        return 1.0;
+    return fmax(0.05, 1.0 - (reach - band) / fmax(collar - band, 1.0)) * 0.5;
+}
+
+/* The collar's textured faces as mask triangles in the run's scratch. */
+static otx_status
+make_mask(otx_mapper *m, const otx_node *node, otx_mask *out)
+{
+    const otx_chart *chart = &node->chart;
+    const otx_level *leaf = m->leaves.level;
+    const double size = m->texels * sqrt(node->cluster.area);
+    const double band = fmin(32.0, fmax(4.0, m->settings.band * size));
+    const double collar = fmax(band, m->settings.collar * size);
+    otx_mask_triangle *triangles = OTX_NEW(
+        m->run->scratch, otx_mask_triangle, chart->first[chart->face_count]);
+    int32_t count = 0;
+
+    if (!triangles)
+        return otx_fail_memory(m->run, "map");
+    for (int32_t i = chart->core_count; i < chart->face_count; ++i)
+    {
+        const int32_t face = chart->faces[i];
+        const int32_t corner = leaf->face_first[face];
+        const int32_t first = chart->first[i];
+        const float weight = (float)mask_weight(chart->reach[i], band, collar);
+
+        if (m->face_patch[face] < 0)
+            continue;
+        for (int32_t k = 1; k + 1 < chart->first[i + 1] - first; ++k)
+        {
+            const int32_t at[3] = {0, k, k + 1};
+            otx_mask_triangle *t = &triangles[count++];
+
+            for (int j = 0; j < 3; ++j)
+            {
+                t->flat[j] = chart->flat[chart->corners[first + at[j]]];
+                t->source[j] = m->uvs[corner + at[j]];
+                t->weight[j] = weight;
+            }
+        }
+    }
+    *out = (otx_mask){triangles, count};
+    return OSDTEX_OK;
+}
+
+/* The rotation by which the mask's charts lie in the exemplar now, weighted by
+ * area: the orientation that continues them. */
+static double
+continuing_angle(const otx_mask *mask)
+{
+    otx_vec2 turn = {0, 0};
+
+    for (int32_t i = 0; i < mask->triangle_count; ++i)
+    {
+        const otx_mask_triangle *t = &mask->triangles[i];
+
+        for (int k = 1; k < 3; ++k)
+        {
+            const otx_vec2 a = otx_vec2_sub(t->flat[k], t->flat[0]);
+            const otx_vec2 b = otx_vec2_sub(t->source[k], t->source[0]);
+
+            turn = otx_vec2_add(
+                turn,
+                otx_vec2_scale(
+                    t->weight[0], otx_vec2_mul((otx_vec2){a.x, -a.y}, b)));
+        }
+    }
+    return atan2(turn.y, turn.x);
+}
+
+/* -- placement ----------------------------------------------------------- */
+
+static otx_vec2
+core_middle(const otx_chart *chart)
+{
+    otx_vec2 sum = {0, 0};
+    const int32_t corners = chart->first[chart->core_count];
+
+    for (int32_t c = 0; c < corners; ++c)
+        sum = otx_vec2_add(sum, chart->flat[chart->corners[c]]);
+    return otx_vec2_scale(1.0 / corners, sum);
+}
+
+/* Corners of the core: they must land inside an exemplar that does not tile. */
+static otx_vec2 *
+core_points(otx_mapper *m, const otx_chart *chart, int32_t *count)
+{
+    const int32_t corners = chart->first[chart->core_count];
+    otx_vec2 *points = OTX_NEW(m->run->scratch, otx_vec2, corners);
+
+    *count = corners;
+    for (int32_t c = 0; points && c < corners; ++c)
+        points[c] = chart->flat[chart->corners[c]];
+    return points;
+}
+
+/* Range of shifts along one axis that keeps the points inside, or the whole
+ * period where the exemplar tiles. False when there is none. */
+static bool
+shift_range(
+    bool wraps, double size, double low, double high, double *first,
+    double *span)
+{
+    *first = wraps ? 0.0 : 0.5 - low;
+    *span = wraps ? size : size - 1.0 - (high - low);
+    return *span >= 0.0;
+}
+
+/* A placement by chance or by the user's wish, for a patch that has nothing to
+ * match [Soler02, sec. 2.2]. Tries orientations until one lies inside. */
+static bool
+place_freely(
+    otx_mapper *m, int32_t index, const otx_vec2 *points, int32_t count,
+    otx_match *out)
+{
+    const otx_image *image = &m->exemplar->match;
+
+    for (int32_t turn = 0; turn < 64; ++turn)
+    {
+        const uint64_t element = (uint64_t)index * 64u + (uint64_t)turn;
+        const double angle =
+            2.0 * OTX_PI * otx_random_unit(m->run->seed, STAGE_ANGLE, element);
+        const otx_vec2 r = otx_vec2_polar(angle);
+        otx_vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+        double x, y, dx, dy;
+
+        for (int32_t i = 0; i < count; ++i)
+        {
+            const otx_vec2 p = otx_vec2_mul(r, points[i]);
+
+            low = (otx_vec2){fmin(low.x, p.x), fmin(low.y, p.y)};
+            high = (otx_vec2){fmax(high.x, p.x), fmax(high.y, p.y)};
+        }
+        if (!shift_range(
+                m->exemplar->wrap_x, image->width, low.x, high.x, &x, &dx) ||
+            !shift_range(
+                m->exemplar->wrap_y, image->height, low.y, high.y, &y, &dy))
+            continue;
+        x += dx * otx_random_unit(m->run->seed, STAGE_PLACE, 2 * element);
+        y += dy * otx_random_unit(m->run->seed, STAGE_PLACE, 2 * element + 1);
+        *out = (otx_match){angle, {x, y}, 0.0};
+        return true;
+    }
+    return false;
+}
+
+/* The user's first patch: its middle at a given place, turned as asked. */
+static otx_match
+place_first(const otx_mapper *m, otx_vec2 middle)
+{
+    const otx_map_request *r = m->request;
+    const otx_vec2 target = {
+        r->first_position.x * m->exemplar->match.width,
+        r->first_position.y * m->exemplar->match.height};
+
+    return (otx_match){
+        r->first_angle,
+        otx_vec2_sub(
+            target, otx_vec2_mul(otx_vec2_polar(r->first_angle), middle)),
+        0.0};
+}
+
+static otx_status
+search(
+    otx_mapper *m, int32_t index, const otx_mask *mask, otx_vec2 middle,
+    const otx_vec2 *points, int32_t point_count, otx_match *best,
+    int32_t *count)
+{
+    const otx_hierarchical_settings *s = &m->settings;
+    const double start = s->continuation ? continuing_angle(mask)
+                                         : 2.0 * OTX_PI *
+                                               otx_random_unit(
+                                                   m->run->seed, STAGE_ANGLE,
+                                                   (uint64_t)index * 64u);
+    double angles[360];
+    otx_match_query query = otx_match_query_defaults(angles, s->angles);
+
+    for (int32_t k = 0; k < s->angles; ++k)
+        angles[k] = start + 2.0 * OTX_PI * k / s->angles;
+    query.coarse_levels = s->coarse;
+    query.coarse_keep = s->keep;
+    query.gauss_newton = s->mode == OTX_HIERARCHICAL_BEST;
+    query.cover = points;
+    query.cover_count = point_count;
+    query.centre = middle;
+    if (s->usage > 0.0 && m->done_area > 0.0)
+    {
+        query.usage = m->usage;
+        query.usage_width = query.usage_height = OTX_USAGE_CELLS;
+        query.usage_weight = s->usage;
+    }
+    ++m->stats->fit_count;
+    return otx_matcher_search(
+        m->run, m->matcher, mask, &query, best, s->candidates, count);
+}
+
+/* -- commit -------------------------------------------------------------- */
+
+static void
+note_usage(otx_mapper *m, const otx_node *node, otx_vec2 middle)
+{
+    const otx_image *image = &m->exemplar->match;
+    const otx_vec2 p = otx_vec2_add(
+        otx_vec2_mul(otx_vec2_polar(node->placed.angle), middle),
+        node->placed.shift);
+    const double u = p.x / image->width, v = p.y / image->height;
+    int32_t x = (int32_t)((u - floor(u)) * OTX_USAGE_CELLS);
+    int32_t y = (int32_t)((v - floor(v)) * OTX_USAGE_CELLS);
+
+    if (x >= OTX_USAGE_CELLS)
+        x = OTX_USAGE_CELLS - 1;
+    if (y >= OTX_USAGE_CELLS)
+        y = OTX_USAGE_CELLS - 1;
+    /* 1 where a cell has got its even share of the surface. */
+    m->usage[y * OTX_USAGE_CELLS + x] +=
+        (float)(node->cluster.area / m->total_area * OTX_USAGE_CELLS * OTX_USAGE_CELLS);
+}
+
+static void
+commit(otx_mapper *m, int32_t index, otx_match placed, otx_vec2 middle)
+{
+    otx_node *node = &m->nodes[index];
+    const otx_chart *chart = &node->chart;
+    const otx_vec2 turn = otx_vec2_polar(placed.angle);
+
+    node->placed = placed;
+    node->patch = m->patch_count;
+    m->patch_node[m->patch_count++] = index;
+    for (int32_t i = 0; i < chart->core_count; ++i)
+    {
+        const int32_t face = chart->faces[i];
+        const int32_t corner = m->leaves.level->face_first[face];
+
+        m->face_patch[face] = node->patch;
+        for (int32_t c = chart->first[i]; c < chart->first[i + 1]; ++c)
+            m->uvs[corner + c - chart->first[i]] = otx_vec2_add(
+                otx_vec2_mul(turn, chart->flat[chart->corners[c]]),
+                placed.shift);
+    }
+    m->done_area += node->cluster.area;
+    m->stats->fit_error_mean += placed.error;
+    ++m->stats
+          ->patches[node->cluster.face_count > 1 ? 0 : node->cluster.level + 1];
+    note_usage(m, node, middle);
+}
+
+static bool
+is_users_first(const otx_mapper *m, const otx_node *node)
+{
+    const int32_t face = m->request->first_face;
+
+    if (face < 0 || m->patch_count > 0)
+        return false;
+    for (int32_t i = 0; i < node->leaf_count; ++i)
+        if (m->leaves.level->face_cage[node->leaves[i]] == face)
+            return true;
+    return false;
+}
+
+otx_status
+otx_fit_node(otx_mapper *m, int32_t index, bool *accepted)
+{
+    const otx_arena_mark mark = otx_arena_here(m->run->scratch);
+    otx_node *node = &m->nodes[index];
+    const otx_vec2 middle = core_middle(&node->chart);
+    otx_match best[16];
+    int32_t count = 0, point_count;
+    otx_vec2 *points = core_points(m, &node->chart, &point_count);
+    otx_mask mask;
+
+    if (!points)
+        return otx_fail_memory(m->run, "map");
+    OTX_TRY(make_mask(m, node, &mask));
+    if (is_users_first(m, node))
+    {
+        best[0] = place_first(m, middle);
+        count = 1;
+    }
+    else if (mask.triangle_count == 0)
+        count = place_freely(m, index, points, point_count, &best[0]);
+    else
+        OTX_TRY(
+            search(m, index, &mask, middle, points, point_count, best, &count));
+    *accepted = count > 0 && (best[0].error <= m->settings.tau ||
+                              !otx_nodes_can_split(m, node));
+    if (*accepted)
+        commit(m, index, best[0], middle);
+    otx_arena_release(m->run->scratch, mark);
+    return OSDTEX_OK;
+}

@@ -1,0 +1,248 @@
+/* hierarchical.c -- the main loop [Soler02, sec. 2.2].
+ *
+ * One queue for all levels: the key puts coarser clusters first and, within a
+ * level, those with the largest share of textured border, so that a patch
+ * finds as much to match as there is. Flatness depends on the surface alone,
+ * so clusters that are not flat are split before anything is fitted, and all
+ * charts are made in parallel. */
+#include "method/hierarchical/hierarchical.h"
+
+#include "base/queue.h"
+
+/* Flattest first where nothing is textured yet; below any difference that the
+ * textured share can make. */
+static double
+queue_key(const otx_mapper *m, int32_t index)
+{
+    const otx_node *node = &m->nodes[index];
+    const double share =
+        node->border > 0.0 ? node->textured / node->border : 0.0;
+    const double bend = fmin(node->chart.distortion - 1.0, 1.0);
+
+    return 4.0 * node->depth - share + 1e-3 * bend;
+}
+
+/* Splits what is not flat and flattens the children, until all are. */
+static otx_status
+flatten_all(otx_mapper *m)
+{
+    int32_t first = 0;
+
+    while (first < m->node_count)
+    {
+        const int32_t end = m->node_count;
+
+        OTX_TRY(otx_nodes_flatten(m, first, end));
+        for (int32_t i = first; i < end; ++i)
+            if (!otx_nodes_is_flat(m, &m->nodes[i]) &&
+                otx_nodes_can_split(m, &m->nodes[i]))
+                OTX_TRY(otx_nodes_split(m, i));
+        first = end;
+        OTX_TRY(otx_progress(m->run, "flatten", 0.0));
+    }
+    return otx_progress(m->run, "flatten", 1.0);
+}
+
+/* Tells the neighbours of a new patch that more of their border is textured.
+ */
+static bool
+wake_neighbours(otx_mapper *m, otx_queue *queue, int32_t index)
+{
+    const otx_level *leaf = m->leaves.level;
+    const otx_node *node = &m->nodes[index];
+
+    for (int32_t i = 0; i < node->leaf_count; ++i)
+    {
+        const int32_t f = node->leaves[i];
+
+        for (int32_t k = 0; k < otx_level_face_size(leaf, f); ++k)
+        {
+            const int32_t other = otx_level_neighbour(leaf, f, k);
+            otx_node *next;
+
+            if (other < 0 || leaf->face_hole[other] ||
+                m->face_patch[other] >= 0)
+                continue;
+            next = &m->nodes[m->leaf_node[other]];
+            next->textured += otx_nodes_edge_length(
+                m, leaf->face_edges[leaf->face_first[f] + k]);
+            if (!otx_queue_push(
+                    queue, queue_key(m, m->leaf_node[other]),
+                    m->leaf_node[other]))
+                return false;
+        }
+    }
+    return true;
+}
+
+static bool
+push_range(otx_mapper *m, otx_queue *queue, int32_t first, int32_t end)
+{
+    for (int32_t i = first; i < end; ++i)
+        if (!m->nodes[i].retired && !otx_queue_push(queue, queue_key(m, i), i))
+            return false;
+    return true;
+}
+
+/* Puts the children of a node that fitted nowhere into the queue. */
+static otx_status
+descend(otx_mapper *m, otx_queue *queue, int32_t index)
+{
+    int32_t first = m->node_count, pushed = first;
+
+    OTX_TRY(otx_nodes_split(m, index));
+    while (first < m->node_count)
+    {
+        const int32_t end = m->node_count;
+
+        OTX_TRY(otx_nodes_flatten(m, first, end));
+        for (int32_t i = first; i < end; ++i)
+            if (!otx_nodes_is_flat(m, &m->nodes[i]) &&
+                otx_nodes_can_split(m, &m->nodes[i]))
+                OTX_TRY(otx_nodes_split(m, i));
+        first = end;
+    }
+    if (!push_range(m, queue, pushed, m->node_count))
+        return otx_fail_memory(m->run, "map");
+    return OSDTEX_OK;
+}
+
+static otx_status
+fails_to_fit(otx_mapper *m, int32_t index)
+{
+    const otx_node *node = &m->nodes[index];
+
+    return otx_fail(
+        m->run, OSDTEX_ERROR_LIMIT, "map",
+        (otx_where){
+            m->surface->cage->path, 0,
+            m->leaves.level->face_cage[node->leaves[0]], -1},
+        "a leaf face is larger than the exemplar, which does not tile; raise "
+        "--level or --scale");
+}
+
+/* The node that holds the cage face of the user's first patch; -1 none. */
+static int32_t
+users_first(const otx_mapper *m)
+{
+    const otx_level *leaf = m->leaves.level;
+
+    if (m->request->first_face < 0)
+        return -1;
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        if (leaf->face_cage[f] == m->request->first_face)
+            return m->leaf_node[f];
+    return -1;
+}
+
+static otx_status
+fit_all(otx_mapper *m)
+{
+    otx_queue queue = otx_queue_make(m->run->scratch);
+    const int32_t first = users_first(m);
+    otx_queue_entry entry;
+
+    if ((first >= 0 && !otx_queue_push(&queue, -INFINITY, first)) ||
+        !push_range(m, &queue, 0, m->node_count))
+        return otx_fail_memory(m->run, "map");
+    while (otx_queue_pop(&queue, &entry))
+    {
+        otx_node *node = &m->nodes[entry.item];
+        bool accepted;
+
+        if (node->patch >= 0 || node->retired)
+            continue;
+        if (isfinite(entry.key) && entry.key > queue_key(m, entry.item))
+            continue;
+        OTX_TRY(otx_fit_node(m, entry.item, &accepted));
+        if (!accepted && !otx_nodes_can_split(m, node))
+            return fails_to_fit(m, entry.item);
+        if (!accepted)
+            OTX_TRY(descend(m, &queue, entry.item));
+        else if (!wake_neighbours(m, &queue, entry.item))
+            return otx_fail_memory(m->run, "map");
+        OTX_TRY(otx_progress(m->run, "fit", m->done_area / m->total_area));
+    }
+    return OSDTEX_OK;
+}
+
+static otx_status
+allocate(otx_mapper *m)
+{
+    const otx_level *leaf = m->leaves.level;
+    const int32_t threads = otx_pool_threads(m->run->pool);
+
+    m->leaf_node = OTX_NEW(m->run->arena, int32_t, leaf->face_count);
+    m->face_patch = OTX_NEW(m->run->arena, int32_t, leaf->face_count);
+    m->patch_node = OTX_NEW(m->run->arena, int32_t, leaf->face_count);
+    m->uvs = OTX_ZNEW(m->run->arena, otx_vec2, leaf->corner_count);
+    m->usage = OTX_ZNEW(m->run->arena, float, OTX_USAGE_CELLS *OTX_USAGE_CELLS);
+    m->spaces = OTX_NEW(m->run->arena, otx_chart_space, threads);
+    if (!m->leaf_node || !m->face_patch || !m->patch_node || !m->uvs ||
+        !m->usage || !m->spaces)
+        return otx_fail_memory(m->run, "map");
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        m->leaf_node[f] = m->face_patch[f] = -1;
+    for (int32_t t = 0; t < threads; ++t)
+        OTX_TRY(otx_chart_space_create(
+            m->run, m->run->arena, m->surface, &m->spaces[t]));
+    return OSDTEX_OK;
+}
+
+static otx_status
+prepare(otx_mapper *m)
+{
+    const otx_exemplar *e = m->exemplar;
+
+    OTX_TRY(otx_dual_build(
+        m->run, m->surface, m->surface->level_count - 1, &m->leaves));
+    for (int32_t f = 0; f < m->leaves.level->face_count; ++f)
+        m->total_area += m->leaves.areas[f];
+    OTX_TRY(allocate(m));
+    if (!otx_nodes_defer(m))
+        return otx_fail_memory(m->run, "map");
+    return otx_matcher_create(
+        m->run, &e->match, e->wrap_x, e->wrap_y, e->match_sigma,
+        m->settings.coarse, &m->matcher);
+}
+
+static otx_status
+map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_map_request *request, const void *settings, otx_mapping *out,
+    otx_map_stats *stats)
+{
+    otx_mapper *m = OTX_ZNEW(run->arena, otx_mapper, 1);
+
+    if (!m)
+        return otx_fail_memory(run, "map");
+    m->run = run;
+    m->surface = surface;
+    m->exemplar = exemplar;
+    m->request = request;
+    m->settings = *(const otx_hierarchical_settings *)settings;
+    m->stats = stats;
+    m->texels = exemplar->match.width / request->scale;
+    otx_hierarchical_resolve(&m->settings, exemplar);
+    stats->threshold = m->settings.tau;
+
+    OTX_TRY(prepare(m));
+    OTX_TRY(otx_nodes_start(m));
+    otx_map_stats_stage(stats, "flatten");
+    OTX_TRY(flatten_all(m));
+    otx_map_stats_stage(stats, "fit");
+    OTX_TRY(fit_all(m));
+    if (m->patch_count > 0)
+        stats->fit_error_mean /= m->patch_count;
+    return otx_assemble(m, out);
+}
+
+const otx_method otx_method_hierarchical = {
+    .name = "hierarchical",
+    .summary = "Covers the surface with patches of the exemplar, coarse to "
+               "fine, that continue one another.",
+    .source = "Soler, Cani, Angelidis: Hierarchical Pattern Mapping, 2002",
+    .options = otx_hierarchical_options,
+    .option_count = OTX_HIERARCHICAL_OPTION_COUNT,
+    .settings_bytes = sizeof(otx_hierarchical_settings),
+    .map = map,
+};

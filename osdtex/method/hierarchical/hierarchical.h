@@ -1,0 +1,143 @@
+/* hierarchical.h -- state of one run of hierarchical pattern mapping.
+ *
+ * [Soler02] Soler, Cani, Angelidis: Hierarchical Pattern Mapping. SIGGRAPH.
+ *
+ * The surface is covered by patches, coarse to fine. A patch starts as a
+ * cluster; it is flattened with its collar, looked up in the exemplar so that
+ * it continues what its neighbours show, and given UVs; a cluster that is not
+ * flat or fits nowhere is split. See docs/notes/hierarchical.md. */
+#ifndef OTX_METHOD_HIERARCHICAL_H
+#define OTX_METHOD_HIERARCHICAL_H
+
+#include "flatten/chart.h"
+#include "match/match.h"
+#include "method/method.h"
+
+typedef enum otx_hierarchical_mode
+{
+    OTX_HIERARCHICAL_BEST,
+    OTX_HIERARCHICAL_PAPER
+} otx_hierarchical_mode;
+
+enum
+{
+    OTX_HIERARCHICAL_AUTO = 0, /* of every CHOICE that has it */
+    OTX_HIERARCHICAL_GROWN = 1,
+    OTX_HIERARCHICAL_SUBDIVISION = 2,
+    OTX_HIERARCHICAL_OFF = 1,
+    OTX_HIERARCHICAL_ON = 2,
+    OTX_HIERARCHICAL_JOINT = 1,
+    OTX_HIERARCHICAL_RECURSIVE = 2,
+    OTX_HIERARCHICAL_RELAX_OFF = 1,
+    OTX_HIERARCHICAL_RELAX_LOOP = 2,
+    OTX_HIERARCHICAL_RELAX_GLOBAL = 3
+};
+
+/* Meaning, range and default of each: the table in settings.c. */
+typedef struct otx_hierarchical_settings
+{
+    int32_t mode;
+    int32_t clusters;
+    double patch;
+    int32_t flatten;
+    double flatness;
+    int32_t angles;
+    int32_t continuation; /* 0 avoid, 1 allow */
+    int32_t coarse;       /* -1 auto */
+    int32_t keep;
+    int32_t candidates; /* 0 auto */
+    double band;
+    double collar;
+    double tau; /* 0 auto */
+    double usage;
+    int32_t cut;
+    int32_t sweeps;
+    int32_t relax;
+    int32_t relax_rounds;
+    double stiffness;
+} otx_hierarchical_settings;
+
+extern const otx_option otx_hierarchical_options[];
+enum
+{
+    OTX_HIERARCHICAL_OPTION_COUNT = 19
+};
+
+/* Replaces every "auto" by what it means for this mode and exemplar. */
+void otx_hierarchical_resolve(
+    otx_hierarchical_settings *settings, const otx_exemplar *exemplar);
+
+/* A cluster on its way to becoming a patch. */
+typedef struct otx_node
+{
+    otx_cluster cluster;
+    int32_t depth;   /* 0 for the clusters that the run starts with */
+    int32_t *leaves; /* [leaf_count] ascending */
+    int32_t leaf_count;
+    double border;    /* length of its outline inside the surface, texels */
+    double textured;  /* of that, beside textured faces */
+    int32_t patch;    /* -1 until fitted */
+    bool retired;     /* split: its children have its leaves */
+    otx_arena *arena; /* of the chart; NULL until flattened */
+    otx_chart chart;
+    otx_match placed; /* where the chart lies in the exemplar */
+} otx_node;
+
+/* One run. Arrays over leaf faces and corners. */
+typedef struct otx_mapper
+{
+    otx_run *run;
+    const otx_surface *surface;
+    const otx_exemplar *exemplar;
+    const otx_map_request *request;
+    otx_hierarchical_settings settings; /* resolved */
+    otx_map_stats *stats;
+    double texels; /* per scene unit */
+    otx_dual leaves;
+    otx_matcher *matcher;
+    otx_chart_space *spaces; /* [threads] */
+
+    otx_node *nodes;
+    int32_t node_count, node_capacity;
+    int32_t *leaf_node;  /* the node that has the leaf now, -1 on holes */
+    int32_t *face_patch; /* -1 until textured */
+    otx_vec2 *uvs;       /* [leaf corner_count] texels, where textured */
+    int32_t patch_count;
+    int32_t *patch_node; /* [leaf face_count] */
+    float *usage;        /* see otx_match_query */
+    double done_area;    /* of textured leaves */
+    double total_area;
+} otx_mapper;
+
+enum
+{
+    OTX_USAGE_CELLS = 16 /* a side */
+};
+
+/* nodes.c: clusters to start with, charts, splitting. */
+otx_status otx_nodes_start(otx_mapper *m);
+/* Flattens the nodes [first, end), in parallel. */
+otx_status otx_nodes_flatten(otx_mapper *m, int32_t first, int32_t end);
+/* Whether the node is small and flat enough to be mapped as one patch. */
+bool otx_nodes_is_flat(const otx_mapper *m, const otx_node *node);
+/* Length of a leaf edge, texels. */
+double otx_nodes_edge_length(const otx_mapper *m, int32_t edge);
+/* Frees all charts; nodes and charts are gone afterwards. */
+void otx_nodes_free(otx_mapper *m);
+/* The same when the run's arena dies before that. False when memory is out. */
+bool otx_nodes_defer(otx_mapper *m);
+/* False when the node is a single leaf face. */
+bool otx_nodes_can_split(const otx_mapper *m, const otx_node *node);
+/* Retires a node and appends its children, unflattened. */
+otx_status otx_nodes_split(otx_mapper *m, int32_t node);
+
+/* fit.c: looks a node up in the exemplar and commits it.
+ *
+ *   accepted  false when the error is above tau and the node can be split, or
+ *             when it fits nowhere */
+otx_status otx_fit_node(otx_mapper *m, int32_t node, bool *accepted);
+
+/* assemble.c: cut, relaxation, and the mapping that is handed out. */
+otx_status otx_assemble(otx_mapper *m, otx_mapping *out);
+
+#endif

@@ -1,0 +1,272 @@
+/* nodes.c -- the clusters of a run: where they start, how they split.
+ *
+ * Grown clusters are unions of the faces of one level, the coarsest whose faces
+ * are a good deal smaller than a patch: so patches are made of whole cage
+ * faces where the cage is fine, and of subdivision patches where it is coarse.
+ */
+#include "method/hierarchical/hierarchical.h"
+
+#include <string.h>
+
+/* A patch is at least about this many faces of the level it is grown from. */
+static const double FACES_PER_DIAMETER = 4.0;
+
+/* How much cluster borders seek bends of the surface; from 0.5 to 4 the
+ * number of clusters that fail the flatness test changes little. */
+static const double BEND = 1.0;
+
+/* Share of the exemplar's shorter side that a patch may fill. */
+static const double EXEMPLAR_SHARE = 0.8;
+
+static otx_status
+append_node(otx_mapper *m, const otx_cluster *cluster, int32_t depth)
+{
+    otx_node *node;
+
+    if (m->node_count == m->node_capacity)
+    {
+        const int32_t capacity = m->node_capacity ? 2 * m->node_capacity : 256;
+        otx_node *nodes = OTX_NEW(m->run->arena, otx_node, capacity);
+
+        if (!nodes)
+            return otx_fail_memory(m->run, "map");
+        if (m->node_count > 0)
+            memcpy(nodes, m->nodes, (size_t)m->node_count * sizeof *nodes);
+        m->nodes = nodes;
+        m->node_capacity = capacity;
+    }
+    node = &m->nodes[m->node_count++];
+    *node = (otx_node){.cluster = *cluster, .depth = depth, .patch = -1};
+    node->leaves = otx_cluster_leaves(
+        m->run->arena, m->surface, cluster, &node->leaf_count);
+    if (!node->leaves)
+        return otx_fail_memory(m->run, "map");
+    for (int32_t i = 0; i < node->leaf_count; ++i)
+        m->leaf_node[node->leaves[i]] = m->node_count - 1;
+    return OSDTEX_OK;
+}
+
+double
+otx_nodes_edge_length(const otx_mapper *m, int32_t edge)
+{
+    const int32_t *v =
+        otx_surface_leaf(m->surface)->edge_verts + 2 * (size_t)edge;
+
+    return m->texels * otx_vec3_length(otx_vec3_sub(
+                           otx_vec3_load(m->surface->points, v[0]),
+                           otx_vec3_load(m->surface->points, v[1])));
+}
+
+/* Length of the outline, and of its textured part. */
+static void
+measure_border(otx_mapper *m, int32_t index)
+{
+    const otx_level *leaf = otx_surface_leaf(m->surface);
+    otx_node *node = &m->nodes[index];
+
+    node->border = node->textured = 0.0;
+    for (int32_t i = 0; i < node->leaf_count; ++i)
+    {
+        const int32_t f = node->leaves[i];
+
+        for (int32_t k = 0; k < otx_level_face_size(leaf, f); ++k)
+        {
+            const int32_t other = otx_level_neighbour(leaf, f, k);
+            double length;
+
+            if (other < 0 || leaf->face_hole[other] ||
+                m->leaf_node[other] == index)
+                continue;
+            length = otx_nodes_edge_length(
+                m, leaf->face_edges[leaf->face_first[f] + k]);
+            node->border += length;
+            if (m->face_patch[other] >= 0)
+                node->textured += length;
+        }
+    }
+}
+
+static otx_status
+append_list(otx_mapper *m, const otx_cluster_list *list, int32_t depth)
+{
+    const int32_t first = m->node_count;
+
+    for (int32_t i = 0; i < list->count; ++i)
+        OTX_TRY(append_node(m, &list->clusters[i], depth));
+    for (int32_t i = first; i < m->node_count; ++i)
+        measure_border(m, i);
+    return OSDTEX_OK;
+}
+
+/* The coarsest level whose faces are small against a patch. */
+static int32_t
+atom_level(const otx_mapper *m)
+{
+    const double size = m->settings.patch / FACES_PER_DIAMETER;
+    int32_t level = 0;
+
+    while (
+        level + 1 < m->surface->level_count &&
+        m->texels *
+                sqrt(m->surface->area / m->surface->levels[level].face_count) >
+            size)
+        ++level;
+    return level;
+}
+
+static otx_status
+start_grown(otx_mapper *m, otx_cluster_list *out)
+{
+    const double diameter = m->settings.patch / m->texels;
+    const int32_t level = atom_level(m);
+    const int32_t count = m->surface->levels[level].face_count;
+    int32_t *faces = OTX_NEW(m->run->arena, int32_t, count);
+    otx_cluster all = {level, count, faces, m->surface->area};
+    otx_dual dual;
+
+    if (!faces)
+        return otx_fail_memory(m->run, "map");
+    for (int32_t f = 0; f < count; ++f)
+        faces[f] = f;
+    OTX_TRY(otx_dual_build(m->run, m->surface, level, &dual));
+    return otx_cluster_grow(
+        m->run, &dual, &all, diameter * diameter, 1, BEND, out);
+}
+
+otx_status
+otx_nodes_start(otx_mapper *m)
+{
+    otx_cluster_list list;
+    otx_dual dual;
+
+    if (m->settings.clusters == OTX_HIERARCHICAL_GROWN)
+        OTX_TRY(start_grown(m, &list));
+    else
+    {
+        OTX_TRY(otx_dual_build(m->run, m->surface, 0, &dual));
+        OTX_TRY(otx_cluster_faces(m->run, &dual, &list));
+    }
+    return append_list(m, &list, 0);
+}
+
+/* -- charts -------------------------------------------------------------- */
+
+typedef struct flatten_job
+{
+    otx_mapper *mapper;
+    int32_t first;
+} flatten_job;
+
+/* Diameter of a disc of the cluster's area, texels. */
+static double
+node_size(const otx_mapper *m, const otx_node *node)
+{
+    return m->texels * sqrt(node->cluster.area);
+}
+
+static otx_status
+flatten_node(void *context, int64_t index, otx_worker *worker)
+{
+    const flatten_job *job = context;
+    otx_mapper *m = job->mapper;
+    otx_node *node = &m->nodes[job->first + index];
+    const double size = node_size(m, node);
+    const bool cut = m->settings.cut == OTX_HIERARCHICAL_ON;
+    const double collar = cut ? fmin(80.0, m->settings.collar * size)
+                              : fmin(32.0, m->settings.band * size);
+    const otx_chart_request request = {
+        .surface = m->surface,
+        .leaves = &m->leaves,
+        .texels = m->texels,
+        .collar = fmax(collar, 2.5 * m->texels * m->surface->mean_edge_length),
+        .bend = BEND,
+        .rounds = 5,
+    };
+
+    node->arena = otx_arena_create(m->run->heap);
+    if (!node->arena)
+        return OSDTEX_ERROR_MEMORY;
+    return otx_chart_build(
+        &request, node->leaves, node->leaf_count, &m->spaces[worker->index],
+        worker->scratch, node->arena, &node->chart);
+}
+
+void
+otx_nodes_free(otx_mapper *m)
+{
+    for (int32_t i = 0; i < m->node_count; ++i)
+        otx_arena_destroy(m->nodes[i].arena);
+    m->node_count = 0;
+}
+
+static void
+free_charts(void *object)
+{
+    otx_nodes_free(object);
+}
+
+bool
+otx_nodes_defer(otx_mapper *m)
+{
+    return otx_arena_defer(m->run->arena, free_charts, m);
+}
+
+otx_status
+otx_nodes_flatten(otx_mapper *m, int32_t first, int32_t end)
+{
+    flatten_job job = {m, first};
+    const otx_status status =
+        otx_pool_for(m->run->pool, end - first, flatten_node, &job);
+
+    if (status == OSDTEX_ERROR_MEMORY)
+        return otx_fail_memory(m->run, "map");
+    return status;
+}
+
+bool
+otx_nodes_can_split(const otx_mapper *m, const otx_node *node)
+{
+    return node->cluster.face_count > 1 ||
+           node->cluster.level + 1 < m->surface->level_count;
+}
+
+bool
+otx_nodes_is_flat(const otx_mapper *m, const otx_node *node)
+{
+    const double side =
+        fmin(m->exemplar->match.width, m->exemplar->match.height);
+
+    return node_size(m, node) <= EXEMPLAR_SHARE * side &&
+           node->chart.distortion <= m->settings.flatness &&
+           node->chart.worst <= 2.0 * m->settings.flatness;
+}
+
+/* Grows about four clusters inside one of several faces. */
+static otx_status
+split_grown(otx_mapper *m, const otx_node *node, otx_cluster_list *out)
+{
+    otx_dual dual;
+
+    OTX_TRY(otx_dual_build(m->run, m->surface, node->cluster.level, &dual));
+    return otx_cluster_grow(
+        m->run, &dual, &node->cluster, 0.25 * node->cluster.area, 2, BEND, out);
+}
+
+otx_status
+otx_nodes_split(otx_mapper *m, int32_t index)
+{
+    otx_node *node = &m->nodes[index];
+    const int32_t depth = node->depth + 1;
+    otx_cluster_list list;
+
+    node->retired = true;
+    otx_arena_destroy(node->arena);
+    node->arena = NULL;
+    if (node->cluster.face_count > 1)
+        OTX_TRY(split_grown(m, node, &list));
+    else
+        OTX_TRY(
+            otx_cluster_children(m->run, m->surface, &node->cluster, &list));
+    ++m->stats->split_count;
+    return append_list(m, &list, depth);
+}

@@ -1,0 +1,148 @@
+/* settings.c -- what can be set, and what "auto" comes to.
+ *
+ * `mode=paper` is the method as published: subdivision patches from the cage
+ * down, recursive flattening, one candidate, search at full resolution,
+ * relaxation of each patch as it is placed. `mode=best` starts from clusters
+ * that are as large as the exemplar allows, and mends the seams afterwards. */
+#include "method/hierarchical/hierarchical.h"
+
+#define FIELD(member) offsetof(otx_hierarchical_settings, member)
+
+static const char *const MODES[] = {"best", "paper", NULL};
+static const char *const CLUSTERS[] = {"auto", "grown", "subdivision", NULL};
+static const char *const FLATTEN[] = {"auto", "joint", "recursive", NULL};
+static const char *const CONTINUATION[] = {"avoid", "allow", NULL};
+static const char *const AUTO_OFF_ON[] = {"auto", "off", "on", NULL};
+static const char *const RELAX[] = {"auto", "off", "loop", "global", NULL};
+
+const otx_option otx_hierarchical_options[] = {
+    {"mode", OTX_OPTION_CHOICE, FIELD(mode), 0, 0, 0, MODES,
+     "best: large patches, cut and relaxed together; paper: the method as "
+     "published, patch by patch"},
+    {"clusters", OTX_OPTION_CHOICE, FIELD(clusters), 0, 0, 0, CLUSTERS,
+     "What patches start from: clusters grown over the hierarchy, or the "
+     "faces of the cage and their subdivision; auto follows mode"},
+    {"patch", OTX_OPTION_REAL, FIELD(patch), 0, 4096, 0, NULL,
+     "Diameter that grown clusters aim for, in texels; 0 follows the "
+     "exemplar"},
+    {"flatten", OTX_OPTION_CHOICE, FIELD(flatten), 0, 0, 0, FLATTEN,
+     "joint: patch and collar as rigid as possible; recursive: the paper's "
+     "barycentric control polygons; auto follows mode"},
+    {"flatness", OTX_OPTION_REAL, FIELD(flatness), 1, 4, 1.12, NULL,
+     "RMS stretch above which a cluster is split before it is mapped; 1 is "
+     "isometric"},
+    {"angles", OTX_OPTION_INTEGER, FIELD(angles), 1, 360, 19, NULL,
+     "Orientations tried for each patch"},
+    {"continuation", OTX_OPTION_CHOICE, FIELD(continuation), 0, 0, 0,
+     CONTINUATION,
+     "allow: a patch may continue its neighbour's chart exactly, which shows "
+     "no seam and repeats a tiling exemplar; avoid: orientations are drawn at "
+     "random"},
+    {"coarse", OTX_OPTION_INTEGER, FIELD(coarse), -1, 6, -1, NULL,
+     "Halvings of the exemplar for the exhaustive search; -1 chooses about "
+     "128 texels (paper: 0)"},
+    {"keep", OTX_OPTION_INTEGER, FIELD(keep), 1, OTX_MATCH_MAX_KEEP, 16, NULL,
+     "Matches of the coarse search that are refined at full resolution"},
+    {"candidates", OTX_OPTION_INTEGER, FIELD(candidates), 0, 16, 0, NULL,
+     "Placements of a patch that are compared after refinement; 0 follows "
+     "mode"},
+    {"band", OTX_OPTION_REAL, FIELD(band), 0.02, 1, 0.2, NULL,
+     "Width of the mask as a share of the patch's size"},
+    {"collar", OTX_OPTION_REAL, FIELD(collar), 0, 2, 0.5, NULL,
+     "Width around a patch that it may take over in the cut, as a share of "
+     "its size"},
+    {"tau", OTX_OPTION_REAL, FIELD(tau), 0, 100, 0, NULL,
+     "Fitting error above which a patch is split, in units of two random "
+     "texels' difference; 0 chooses by the exemplar's contrast"},
+    {"usage", OTX_OPTION_REAL, FIELD(usage), 0, 10, 0, NULL,
+     "Penalty for parts of the exemplar that were used before, against "
+     "motifs that recur"},
+    {"cut", OTX_OPTION_CHOICE, FIELD(cut), 0, 0, 0, AUTO_OFF_ON,
+     "Move the borders between patches to where their textures agree; auto "
+     "follows mode"},
+    {"sweeps", OTX_OPTION_INTEGER, FIELD(sweeps), 1, 10, 3, NULL,
+     "Rounds of the cut over all patches"},
+    {"relax", OTX_OPTION_CHOICE, FIELD(relax), 0, 0, 0, RELAX,
+     "loop: each patch's border as it is placed; global: all patches together "
+     "at the end; auto follows mode"},
+    {"relax-rounds", OTX_OPTION_INTEGER, FIELD(relax_rounds), 1, 100, 12, NULL,
+     "Rounds of the global relaxation"},
+    {"stiffness", OTX_OPTION_REAL, FIELD(stiffness), 1e-3, 100, 0.3, NULL,
+     "How strongly the global relaxation resists stretch, against colour "
+     "difference across seams"},
+};
+
+_Static_assert(
+    sizeof otx_hierarchical_options / sizeof otx_hierarchical_options[0] ==
+        OTX_HIERARCHICAL_OPTION_COUNT,
+    "the header says how long the table is");
+
+/* Halvings that leave the shorter side at about 128 texels: the search there
+ * finds the same matches as at full resolution for a fraction of the time. */
+static int32_t
+coarse_levels(const otx_exemplar *exemplar)
+{
+    int32_t side = exemplar->match.width < exemplar->match.height
+                       ? exemplar->match.width
+                       : exemplar->match.height;
+    int32_t levels = 0;
+
+    for (; side / 2 >= 112; side /= 2)
+        ++levels;
+    return levels;
+}
+
+/* A third of the exemplar's shorter side, at most 128 texels. */
+static double
+patch_size(const otx_exemplar *exemplar)
+{
+    const double side = fmin(exemplar->match.width, exemplar->match.height);
+
+    return fmin(128.0, fmax(24.0, 0.34 * side));
+}
+
+/* Seams do not show while they stay below the exemplar's own contrast between
+ * adjacent texels. */
+static double
+visible_error(const otx_exemplar *exemplar)
+{
+    const double contrast = exemplar->match_sigma > 0.0
+                                ? exemplar->match_step / exemplar->match_sigma
+                                : 0.0;
+
+    return fmin(fmax(contrast, 0.15), 0.45);
+}
+
+static void
+choose(int32_t *setting, bool paper, int32_t of_paper, int32_t of_best)
+{
+    if (*setting == OTX_HIERARCHICAL_AUTO)
+        *setting = paper ? of_paper : of_best;
+}
+
+void
+otx_hierarchical_resolve(
+    otx_hierarchical_settings *s, const otx_exemplar *exemplar)
+{
+    const bool paper = s->mode == OTX_HIERARCHICAL_PAPER;
+
+    choose(
+        &s->clusters, paper, OTX_HIERARCHICAL_SUBDIVISION,
+        OTX_HIERARCHICAL_GROWN);
+    choose(
+        &s->flatten, paper, OTX_HIERARCHICAL_RECURSIVE, OTX_HIERARCHICAL_JOINT);
+    choose(&s->cut, paper, OTX_HIERARCHICAL_OFF, OTX_HIERARCHICAL_ON);
+    choose(
+        &s->relax, paper, OTX_HIERARCHICAL_RELAX_LOOP,
+        OTX_HIERARCHICAL_RELAX_GLOBAL);
+    choose(&s->candidates, paper, 1, 1);
+    if (s->coarse < 0)
+        s->coarse = paper ? 0 : coarse_levels(exemplar);
+    if (s->patch == 0.0)
+        s->patch = patch_size(exemplar);
+    /* Splitting trades few strong seams for many mild ones and leaves their
+     * sum as it was; the cut lowers the sum, so best mode hardly ever splits
+     * for error. */
+    if (s->tau == 0.0)
+        s->tau = paper ? visible_error(exemplar) : 10.0;
+}

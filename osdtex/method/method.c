@@ -1,0 +1,96 @@
+/* method.c -- the table of methods and the driver. */
+#include "method/method.h"
+
+#include <string.h>
+#include <time.h>
+
+extern const otx_method otx_method_hierarchical;
+
+static const otx_method *const METHODS[] = {
+    &otx_method_hierarchical,
+};
+
+int32_t
+otx_method_count(void)
+{
+    return (int32_t)(sizeof METHODS / sizeof METHODS[0]);
+}
+
+const otx_method *
+otx_method_at(int32_t index)
+{
+    return METHODS[index];
+}
+
+const otx_method *
+otx_method_find(const char *name)
+{
+    for (int32_t i = 0; i < otx_method_count(); ++i)
+        if (strcmp(METHODS[i]->name, name) == 0)
+            return METHODS[i];
+    return NULL;
+}
+
+static double
+now(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void
+otx_map_stats_stage(otx_map_stats *stats, const char *name)
+{
+    const double time = now();
+
+    if (stats->stage_count > 0)
+        stats->stages[stats->stage_count - 1].seconds += time;
+    if (name && stats->stage_count < OTX_STAGE_MAX)
+    {
+        stats->stages[stats->stage_count].name = name;
+        stats->stages[stats->stage_count++].seconds = -time;
+    }
+}
+
+/* Requests that no method could answer. */
+static otx_status
+check(otx_run *run, const otx_surface *surface, const otx_map_request *request)
+{
+    if (!(request->scale > 0.0) || !isfinite(request->scale))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
+            "the scale is %g; give the exemplar's width in scene units, a "
+            "positive number",
+            request->scale);
+    if (request->first_face >= surface->cage->face_count)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "map",
+            (otx_where){surface->cage->path, 0, request->first_face, -1},
+            "the first patch asks for face %d, and the cage has faces 0 to %d",
+            (int)request->first_face, (int)surface->cage->face_count - 1);
+    if (!(surface->area > 0.0))
+        return otx_fail(
+            run, OSDTEX_ERROR_TOPOLOGY, "map",
+            (otx_where){surface->cage->path, 0, -1, -1},
+            "the surface has no area; there is nothing to texture");
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_method_map(
+    otx_run *run, const otx_method *method, const otx_surface *surface,
+    const otx_exemplar *exemplar, const otx_map_request *request,
+    const void *settings, otx_mapping *out, otx_map_stats *stats)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+
+    *stats = (otx_map_stats){0};
+    OTX_TRY(check(run, surface, request));
+    otx_map_stats_stage(stats, "prepare");
+    OTX_TRY(method->map(run, surface, exemplar, request, settings, out, stats));
+    otx_map_stats_stage(stats, NULL);
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}

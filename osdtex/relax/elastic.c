@@ -1,0 +1,515 @@
+/* elastic.c -- Gauss-Newton on seams and sheets.
+ *
+ * A seam couples the ends of its two sides, eight numbers in all; its normal
+ * matrix is summed once a round and applied as one block, so that a step of
+ * conjugate gradients costs the same however finely the seam was sampled. */
+#include "relax/elastic.h"
+
+#include "flatten/stretch.h"
+#include "image/pyramid.h"
+#include "relax/sheet.h"
+
+#include <string.h>
+
+enum
+{
+    CG_ROUNDS = 30,
+    SEAMS_PER_TASK = 256,
+    TAKE_BACK_ROUNDS = 64
+};
+
+static const double CG_TOLERANCE = 1e-3;
+static const double DAMPING = 1e-2; /* of the diagonal */
+
+/* Normal equations of one seam: unknowns a0 a1 b0 b1, x and y of each. */
+typedef struct seam_block
+{
+    double h[8][8];
+    double g[8];
+    double energy;
+} seam_block;
+
+typedef struct elastic
+{
+    otx_run *run;
+    const otx_surface *surface;
+    const otx_exemplar *exemplar;
+    const otx_elastic_options *options;
+    otx_sheet sheet;
+    const otx_image *image; /* level of the pyramid */
+    double weight;          /* 1 / sigma^2 */
+    seam_block *blocks;
+    otx_vec2 *step, *b, *diagonal, *moved;
+    uint8_t *held; /* variables taken back this round */
+    double *sigma; /* [face_count] badness of each face before the round */
+} elastic;
+
+/* -- colours and their gradients ----------------------------------------- */
+
+static int32_t
+fold(int32_t i, int32_t n, bool wrap)
+{
+    if (wrap)
+    {
+        i %= n;
+        return i < 0 ? i + n : i;
+    }
+    return i < 0 ? 0 : i >= n ? n - 1 : i;
+}
+
+/* Bilinear colour and its derivative by the texel position at full
+ * resolution. */
+static void
+sample(const elastic *e, otx_vec2 texel, double color[3], otx_vec2 slope[3])
+{
+    const otx_image *image = e->image;
+    const double sx = (double)image->width / e->exemplar->match.width;
+    const double sy = (double)image->height / e->exemplar->match.height;
+    const double x = texel.x * sx - 0.5, y = texel.y * sy - 0.5;
+    const double fx = floor(x), fy = floor(y);
+    const double u = x - fx, v = y - fy;
+    const int32_t x0 = fold((int32_t)fx, image->width, e->exemplar->wrap_x);
+    const int32_t x1 = fold((int32_t)fx + 1, image->width, e->exemplar->wrap_x);
+    const int32_t y0 = fold((int32_t)fy, image->height, e->exemplar->wrap_y);
+    const int32_t y1 =
+        fold((int32_t)fy + 1, image->height, e->exemplar->wrap_y);
+    const float *p00 = otx_image_at(image, x0, y0);
+    const float *p10 = otx_image_at(image, x1, y0);
+    const float *p01 = otx_image_at(image, x0, y1);
+    const float *p11 = otx_image_at(image, x1, y1);
+
+    for (int c = 0; c < 3; ++c)
+    {
+        const double low = p00[c] + u * (p10[c] - p00[c]);
+        const double high = p01[c] + u * (p11[c] - p01[c]);
+
+        color[c] = low + v * (high - low);
+        slope[c].x =
+            sx * ((1.0 - v) * (p10[c] - p00[c]) + v * (p11[c] - p01[c]));
+        slope[c].y = sy * (high - low);
+    }
+}
+
+static int32_t
+sample_count(double length)
+{
+    const int32_t n = (int32_t)ceil(length);
+
+    return n < 2 ? 2 : n;
+}
+
+/* Squared colour difference along a seam, per texel of length. */
+static double
+seam_energy(const elastic *e, const otx_sheet_seam *seam, const otx_vec2 *at)
+{
+    const int32_t n = sample_count(seam->length);
+    double sum = 0.0;
+
+    for (int32_t i = 0; i < n; ++i)
+    {
+        const double t = (i + 0.5) / n;
+        double a[3], b[3];
+        otx_vec2 unused[3];
+
+        sample(e, otx_vec2_lerp(at[seam->a[0]], at[seam->a[1]], t), a, unused);
+        sample(e, otx_vec2_lerp(at[seam->b[0]], at[seam->b[1]], t), b, unused);
+        for (int c = 0; c < 3; ++c)
+            sum += (a[c] - b[c]) * (a[c] - b[c]);
+    }
+    return sum * e->weight * seam->length / n;
+}
+
+/* Adds one residual with its row of the Jacobian. */
+static void
+add_row(seam_block *block, const double row[8], double residual, double weight)
+{
+    for (int i = 0; i < 8; ++i)
+    {
+        block->g[i] += weight * row[i] * residual;
+        for (int j = 0; j < 8; ++j)
+            block->h[i][j] += weight * row[i] * row[j];
+    }
+    block->energy += weight * residual * residual;
+}
+
+static void
+linearise(const elastic *e, const otx_sheet_seam *seam, seam_block *block)
+{
+    const otx_vec2 *at = e->sheet.at;
+    const int32_t n = sample_count(seam->length);
+    const double weight = e->weight * seam->length / n;
+
+    memset(block, 0, sizeof *block);
+    for (int32_t i = 0; i < n; ++i)
+    {
+        const double t = (i + 0.5) / n;
+        double a[3], b[3];
+        otx_vec2 da[3], db[3];
+
+        sample(e, otx_vec2_lerp(at[seam->a[0]], at[seam->a[1]], t), a, da);
+        sample(e, otx_vec2_lerp(at[seam->b[0]], at[seam->b[1]], t), b, db);
+        for (int c = 0; c < 3; ++c)
+        {
+            const double row[8] = {(1.0 - t) * da[c].x,  (1.0 - t) * da[c].y,
+                                   t * da[c].x,          t * da[c].y,
+                                   -(1.0 - t) * db[c].x, -(1.0 - t) * db[c].y,
+                                   -t * db[c].x,         -t * db[c].y};
+
+            add_row(block, row, a[c] - b[c], weight);
+        }
+    }
+}
+
+static otx_status
+linearise_seams(void *context, int64_t index, otx_worker *worker)
+{
+    const elastic *e = context;
+    const int64_t first = index * SEAMS_PER_TASK;
+    const int64_t end = first + SEAMS_PER_TASK;
+
+    (void)worker;
+    for (int64_t i = first; i < end && i < e->sheet.seam_count; ++i)
+        linearise(e, &e->sheet.seams[i], &e->blocks[i]);
+    return OSDTEX_OK;
+}
+
+static otx_status
+measure_seams(void *context, int64_t index, otx_worker *worker)
+{
+    const elastic *e = context;
+    const int64_t first = index * SEAMS_PER_TASK;
+    const int64_t end = first + SEAMS_PER_TASK;
+
+    (void)worker;
+    for (int64_t i = first; i < end && i < e->sheet.seam_count; ++i)
+        e->blocks[i].energy = seam_energy(e, &e->sheet.seams[i], e->sheet.at);
+    return OSDTEX_OK;
+}
+
+/* Sum over the blocks, in order. */
+static otx_status
+total_seam_energy(elastic *e, double *out)
+{
+    const int64_t tasks =
+        (e->sheet.seam_count + SEAMS_PER_TASK - 1) / SEAMS_PER_TASK;
+
+    OTX_TRY(otx_pool_for(e->run->pool, tasks, measure_seams, e));
+    *out = 0.0;
+    for (int32_t i = 0; i < e->sheet.seam_count; ++i)
+        *out += e->blocks[i].energy;
+    return OSDTEX_OK;
+}
+
+/* Rigidity: sum of u . (L u - 2 b) up to a constant that depends only on the
+ * surface, with the best rotations. */
+static double
+rigid_energy(elastic *e)
+{
+    const otx_vec2 *at = e->sheet.at;
+    double sum = 0.0;
+
+    otx_rigid_pull(&e->sheet.rigid, at, e->b);
+    otx_rigid_apply(&e->sheet.rigid, at, e->step);
+    for (int32_t v = 0; v < e->sheet.count; ++v)
+        sum += otx_vec2_dot(
+            at[v], otx_vec2_sub(e->step[v], otx_vec2_scale(2.0, e->b[v])));
+    return e->options->stiffness * sum;
+}
+
+/* -- the linear system --------------------------------------------------- */
+
+static void
+seam_variables(const otx_sheet_seam *seam, int32_t v[4])
+{
+    v[0] = seam->a[0];
+    v[1] = seam->a[1];
+    v[2] = seam->b[0];
+    v[3] = seam->b[1];
+}
+
+static void
+apply(const void *context, const otx_vec2 *x, otx_vec2 *out)
+{
+    const elastic *e = context;
+    const double stiffness = e->options->stiffness;
+
+    otx_rigid_apply(&e->sheet.rigid, x, out);
+    for (int32_t v = 0; v < e->sheet.count; ++v)
+    {
+        out[v].x = stiffness * out[v].x + DAMPING * e->diagonal[v].x * x[v].x;
+        out[v].y = stiffness * out[v].y + DAMPING * e->diagonal[v].y * x[v].y;
+    }
+    for (int32_t s = 0; s < e->sheet.seam_count; ++s)
+    {
+        const seam_block *block = &e->blocks[s];
+        int32_t v[4];
+        double in[8];
+
+        seam_variables(&e->sheet.seams[s], v);
+        for (int i = 0; i < 4; ++i)
+        {
+            in[2 * i] = x[v[i]].x;
+            in[2 * i + 1] = x[v[i]].y;
+        }
+        for (int i = 0; i < 8; ++i)
+        {
+            double sum = 0.0;
+
+            for (int j = 0; j < 8; ++j)
+                sum += block->h[i][j] * in[j];
+            if (i % 2 == 0)
+                out[v[i / 2]].x += sum;
+            else
+                out[v[i / 2]].y += sum;
+        }
+    }
+}
+
+/* Right-hand side stiffness (b - L u) - J^T r, and the diagonal. */
+static void
+prepare_system(elastic *e)
+{
+    const double stiffness = e->options->stiffness;
+    const otx_sheet *s = &e->sheet;
+
+    otx_rigid_pull(&s->rigid, s->at, e->b);
+    otx_rigid_apply(&s->rigid, s->at, e->step);
+    for (int32_t v = 0; v < s->count; ++v)
+    {
+        const double d = stiffness * s->rigid.diagonal[v] + 1e-9;
+
+        e->b[v] = otx_vec2_scale(stiffness, otx_vec2_sub(e->b[v], e->step[v]));
+        e->diagonal[v] = (otx_vec2){d, d};
+        e->step[v] = (otx_vec2){0.0, 0.0};
+    }
+    for (int32_t i = 0; i < s->seam_count; ++i)
+    {
+        const seam_block *block = &e->blocks[i];
+        int32_t v[4];
+
+        seam_variables(&s->seams[i], v);
+        for (int k = 0; k < 4; ++k)
+        {
+            e->b[v[k]].x -= block->g[2 * k];
+            e->b[v[k]].y -= block->g[2 * k + 1];
+            e->diagonal[v[k]].x += block->h[2 * k][2 * k];
+            e->diagonal[v[k]].y += block->h[2 * k + 1][2 * k + 1];
+        }
+    }
+}
+
+/* -- steps that are allowed ---------------------------------------------- */
+
+/* The larger of stretch and its inverse over the fan of a face; INFINITY when
+ * a triangle of it is flipped. */
+static double
+face_badness(const elastic *e, int32_t face)
+{
+    const otx_sheet *s = &e->sheet;
+    const int32_t first = s->first[face];
+    double worst = 1.0;
+
+    for (int32_t c = first + 1; c + 1 < s->first[face + 1]; ++c)
+    {
+        const int32_t v[3] = {
+            s->corners[first], s->corners[c], s->corners[c + 1]};
+        otx_vec3 p[3];
+        otx_vec2 uv[3];
+        double sigma[2];
+
+        for (int i = 0; i < 3; ++i)
+        {
+            p[i] = otx_vec3_scale(
+                e->options->texels,
+                otx_vec3_load(e->surface->points, s->verts[v[i]]));
+            uv[i] = s->at[v[i]];
+        }
+        otx_stretch_singular(p, uv, sigma);
+        worst = sigma[1] > 0.0 ? fmax(worst, fmax(sigma[0], 1.0 / sigma[1]))
+                               : INFINITY;
+    }
+    return worst;
+}
+
+/* Takes back the variables of every face that the step made worse than the
+ * limit. Taking back may spoil a neighbour, so it is repeated; after the last
+ * round everything is taken back, and the state is the one before. */
+static int64_t
+take_back(elastic *e)
+{
+    otx_sheet *s = &e->sheet;
+    int64_t refused = 0;
+
+    for (int32_t round = 0; round < TAKE_BACK_ROUNDS; ++round)
+    {
+        int64_t before = refused;
+
+        for (int32_t f = 0; f < s->face_count; ++f)
+        {
+            const double bad = face_badness(e, f);
+
+            if (bad <= e->options->stretch || bad <= e->sigma[f])
+                continue;
+            for (int32_t c = s->first[f]; c < s->first[f + 1]; ++c)
+            {
+                const int32_t v = s->corners[c];
+
+                refused += !e->held[v];
+                e->held[v] = 1;
+                s->at[v] = e->moved[v];
+            }
+        }
+        if (refused == before)
+            return refused;
+    }
+    memcpy(s->at, e->moved, (size_t)s->count * sizeof *s->at);
+    return s->count;
+}
+
+static double
+inside(double x, bool wrap, double size)
+{
+    return wrap ? x : fmin(fmax(x, 0.5), size - 0.5);
+}
+
+/* Moves by `share` of the step, from `moved` (the state before). */
+static int64_t
+move(elastic *e, double share, double longest)
+{
+    otx_sheet *s = &e->sheet;
+
+    memset(e->held, 0, (size_t)s->count);
+    for (int32_t v = 0; v < s->count; ++v)
+    {
+        const double length = otx_vec2_length(e->step[v]);
+        const double scale =
+            length > longest ? share * longest / length : share;
+        const otx_vec2 p =
+            otx_vec2_add(e->moved[v], otx_vec2_scale(scale, e->step[v]));
+
+        s->at[v].x = inside(p.x, e->exemplar->wrap_x, e->exemplar->match.width);
+        s->at[v].y =
+            inside(p.y, e->exemplar->wrap_y, e->exemplar->match.height);
+    }
+    return take_back(e);
+}
+
+/* One Gauss-Newton step, halved until the energy falls; left out when it does
+ * not. */
+static otx_status
+round_of(elastic *e, int32_t level, bool *improved, otx_elastic_stats *stats)
+{
+    otx_sheet *s = &e->sheet;
+    const otx_arena_mark mark = otx_arena_here(e->run->scratch);
+    const int64_t tasks = (s->seam_count + SEAMS_PER_TASK - 1) / SEAMS_PER_TASK;
+    const otx_rigid_system system = {
+        s->count, apply, e, e->diagonal, CG_ROUNDS, CG_TOLERANCE};
+    otx_vec2 *step;
+    double seam, before, after, share = 1.0;
+
+    OTX_TRY(otx_pool_for(e->run->pool, tasks, linearise_seams, e));
+    OTX_TRY(total_seam_energy(e, &seam));
+    before = seam + rigid_energy(e);
+    prepare_system(e);
+    step = OTX_ZNEW(e->run->scratch, otx_vec2, s->count);
+    if (!step)
+        return otx_fail_memory(e->run, "relax");
+    if (otx_rigid_solve(e->run->scratch, &system, e->b, step) != OSDTEX_OK)
+        return otx_fail_memory(e->run, "relax");
+    memcpy(e->moved, s->at, (size_t)s->count * sizeof *s->at);
+    for (int32_t f = 0; f < s->face_count; ++f)
+        e->sigma[f] = face_badness(e, f);
+    *improved = false;
+    for (int32_t attempt = 0; attempt < 4 && !*improved; ++attempt)
+    {
+        memcpy(e->step, step, (size_t)s->count * sizeof *step);
+        stats->refused += move(e, share, 2.0 * (1 << level));
+        OTX_TRY(total_seam_energy(e, &seam));
+        after = seam + rigid_energy(e);
+        *improved = after < before;
+        share *= 0.5;
+    }
+    if (!*improved)
+        memcpy(s->at, e->moved, (size_t)s->count * sizeof *s->at);
+    else
+        ++stats->rounds;
+    otx_arena_release(e->run->scratch, mark);
+    return OSDTEX_OK;
+}
+
+static otx_status
+run_levels(elastic *e, const otx_pyramid *pyramid, otx_elastic_stats *stats)
+{
+    const otx_elastic_options *o = e->options;
+    const int32_t levels =
+        o->levels < pyramid->count ? o->levels : pyramid->count;
+    int32_t done = 0;
+
+    for (int32_t level = levels - 1; level >= 0; --level)
+    {
+        const int32_t until = o->rounds * (levels - level) / levels;
+        bool improved = true;
+
+        e->image = &pyramid->levels[level];
+        for (; done < until && improved; ++done)
+        {
+            OTX_TRY(otx_progress(
+                e->run, "relax", (double)done / (double)o->rounds));
+            OTX_TRY(round_of(e, level, &improved, stats));
+        }
+        done = until;
+    }
+    return OSDTEX_OK;
+}
+
+static otx_status
+allocate(elastic *e)
+{
+    otx_arena *arena = e->run->scratch;
+    const int32_t n = e->sheet.count;
+
+    e->blocks = OTX_NEW(arena, seam_block, e->sheet.seam_count);
+    e->step = OTX_NEW(arena, otx_vec2, n);
+    e->b = OTX_NEW(arena, otx_vec2, n);
+    e->diagonal = OTX_NEW(arena, otx_vec2, n);
+    e->moved = OTX_NEW(arena, otx_vec2, n);
+    e->held = OTX_NEW(arena, uint8_t, n);
+    e->sigma = OTX_NEW(arena, double, e->sheet.face_count);
+    if (!e->blocks || !e->step || !e->b || !e->diagonal || !e->moved ||
+        !e->held || !e->sigma)
+        return otx_fail_memory(e->run, "relax");
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_elastic_run(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_elastic_options *options, const int32_t *face_patch,
+    otx_vec2 *uvs, otx_elastic_stats *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const double sigma = exemplar->match_sigma;
+    elastic e = {
+        .run = run,
+        .surface = surface,
+        .exemplar = exemplar,
+        .options = options,
+        .weight = sigma > 0.0 ? 1.0 / (sigma * sigma) : 0.0,
+    };
+    otx_pyramid pyramid;
+
+    *out = (otx_elastic_stats){0};
+    OTX_TRY(otx_sheet_build(
+        run, surface, options->texels, face_patch, uvs, &e.sheet));
+    OTX_TRY(otx_pyramid_build(run, run->scratch, &exemplar->match, &pyramid));
+    OTX_TRY(allocate(&e));
+    e.image = &pyramid.levels[0];
+    OTX_TRY(total_seam_energy(&e, &out->seam_before));
+    if (e.sheet.seam_count > 0 && sigma > 0.0)
+        OTX_TRY(run_levels(&e, &pyramid, out));
+    e.image = &pyramid.levels[0];
+    OTX_TRY(total_seam_energy(&e, &out->seam_after));
+    otx_sheet_store(&e.sheet, uvs);
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
