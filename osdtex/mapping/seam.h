@@ -15,6 +15,11 @@
  * 2^15 texels are exact to 2^-9. */
 #define OTX_SEAM_TOLERANCE 4e-3
 
+enum
+{
+    OTX_SEAM_SAMPLES_MAX = 1 << 16 /* on one edge */
+};
+
 /* Corners of `face` at the two ends of `edge`, in the order of edge_verts, as
  * offsets into the level's corners. */
 void otx_seam_corners(
@@ -25,6 +30,18 @@ void otx_seam_corners(
  *   a, b   texel positions of the two ends, in the same order */
 bool otx_seam_continuous(
     const otx_exemplar *exemplar, const otx_vec2 a[2], const otx_vec2 b[2]);
+
+/* Length of a leaf edge in scene units. */
+static inline double
+otx_seam_edge_length(const otx_surface *surface, int32_t edge)
+{
+    const int32_t *verts =
+        otx_surface_leaf(surface)->edge_verts + 2 * (size_t)edge;
+
+    return otx_vec3_length(otx_vec3_sub(
+        otx_vec3_load(surface->points, verts[1]),
+        otx_vec3_load(surface->points, verts[0])));
+}
 
 /* Samples for an edge of `length` texels: one a texel, at least 2. */
 int32_t otx_seam_sample_count(double length);
@@ -55,6 +72,13 @@ typedef struct otx_seam_list
 /* Texels per scene unit that the mapping asks for. */
 double
 otx_seam_density(const otx_mapping *mapping, const otx_exemplar *exemplar);
+
+/* Whether a leaf face has a patch and finite UVs, and is not a hole. */
+bool otx_seam_covered(const otx_mapping *mapping, int32_t face);
+
+/* UV of a leaf corner in texels. */
+otx_vec2 otx_seam_texel(
+    const otx_mapping *mapping, const otx_exemplar *exemplar, int32_t corner);
 
 /* Finds and samples the seams between covered faces that are not holes. The
  * list lives in run->arena. MEMORY, LIMIT when the samples pass 2^31. */
