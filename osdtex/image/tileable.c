@@ -82,6 +82,14 @@ measure_steps(otx_run *run, const otx_image *image, steps *out)
     return OSDTEX_OK;
 }
 
+static otx_status
+halve(otx_run *run, otx_image *image)
+{
+    const otx_image from = *image;
+
+    return otx_image_halve(run, run->scratch, &from, image);
+}
+
 /* The first test; `*first` are the steps at full size. */
 static otx_status
 test_steps(otx_run *run, const otx_image *image, steps *first, bool *pass)
@@ -96,7 +104,7 @@ test_steps(otx_run *run, const otx_image *image, steps *first, bool *pass)
 
         if (level.width < 2 * LEVEL_MIN_SIDE || level.height < 2)
             break;
-        OTX_TRY(otx_image_halve(run, run->scratch, &level, &level));
+        OTX_TRY(halve(run, &level));
         OTX_TRY(measure_steps(run, &level, &s));
         *pass = s.border <= step_ratio_max * s.inner;
     }
@@ -237,7 +245,7 @@ test_likeness(otx_run *run, const otx_image *image, bool *pass)
 
     *pass = false;
     while (level.width > STRIP_MAX_SIDE || level.height > STRIP_MAX_SIDE)
-        OTX_TRY(otx_image_halve(run, run->scratch, &level, &level));
+        OTX_TRY(halve(run, &level));
     if (level.width < STRIP_MIN_SIDE)
         return OSDTEX_OK;
     OTX_TRY(sum_columns(run, &level, &columns));
