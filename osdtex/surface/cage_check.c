@@ -340,7 +340,7 @@ check_fans(otx_run *run, const otx_cage_input *in, const otx_topology *t)
         else if (isolated++ == 0)
             where = otx_cage_check_at_vertex(in, v);
     }
-    if (isolated > 0)
+    if (status == OSDTEX_OK && isolated > 0)
         otx_note(
             run, OSDTEX_SEVERITY_WARNING, STAGE, where,
             "%d vertices belong to no face (first is vertex %d); they are "

@@ -1,0 +1,508 @@
+#include "meshes.h"
+
+#include <unistd.h>
+
+/* Builds `in` with Catmull-Clark; on failure checks the status and that the
+ * sentence holds `words`. */
+static void
+expect(
+    otx_run *run, const otx_cage_input *in, otx_status status,
+    const char *words)
+{
+    const otx_cage_options options = otx_cage_options_default();
+    otx_cage cage;
+    otx_status got;
+
+    /* Like findings of an earlier call would fold into one. */
+    otx_diagnostics_destroy(run->diagnostics);
+    run->diagnostics = otx_diagnostics_create(run->heap);
+    got = otx_cage_build(run, in, &options, &cage);
+    if (got != status || !strstr(test_last_message(run), words))
+        fail_msg(
+            "status %d, wanted %d with '%s': %s", got, status, words,
+            test_last_message(run));
+    if (status != OSDTEX_OK)
+        assert_null(cage.points);
+}
+
+static osdtex_diagnostic
+last_finding(const otx_run *run)
+{
+    osdtex_diagnostic d;
+
+    otx_diagnostics_get(
+        run->diagnostics, otx_diagnostics_count(run->diagnostics) - 1, &d);
+    return d;
+}
+
+static void
+test_a_good_cage_is_kept(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_cage_input in = mesh_cube(run);
+    const otx_cage cage = mesh_build(run, &in, NULL);
+
+    (void)state;
+    assert_int_equal(otx_diagnostics_count(run->diagnostics), 0);
+    assert_int_equal(cage.edge_count, 12);
+    assert_int_equal(cage.corner_count, 24);
+    assert_true(fabs(cage.diagonal - sqrt(12.0)) < 1e-12);
+    assert_true(fabs(cage.mean_edge_length - 2.0) < 1e-12);
+    assert_memory_equal(cage.points, cube_points, sizeof cube_points);
+    assert_memory_equal(cage.face_verts, cube_verts, sizeof cube_verts);
+    assert_ptr_not_equal(cage.points, cube_points);
+    assert_int_equal(cage.boundary, OTX_BOUNDARY_EDGE_AND_CORNER);
+    assert_int_equal(cage.fvar, OTX_FVAR_CORNERS_PLUS1);
+    assert_false(cage.crease_chaikin);
+    assert_false(cage.triangles_smooth);
+    assert_int_equal(cage.face_group[5], -1);
+    test_run_destroy(run);
+}
+
+static void
+test_user_then_file_then_default(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_cage_input in = mesh_cube(run);
+    otx_cage_options options = otx_cage_options_default();
+    otx_cage cage;
+
+    (void)state;
+    in.boundary = OTX_BOUNDARY_EDGE_ONLY;
+    in.fvar = OTX_FVAR_ALL;
+    in.crease_chaikin = 1;
+    options.fvar = OTX_FVAR_NONE;
+    cage = mesh_build(run, &in, &options);
+    assert_int_equal(cage.boundary, OTX_BOUNDARY_EDGE_ONLY);
+    assert_int_equal(cage.fvar, OTX_FVAR_NONE);
+    assert_true(cage.crease_chaikin);
+
+    in.fvar = 17;
+    options.fvar = OTX_CAGE_UNSET;
+    cage = mesh_build(run, &in, &options);
+    assert_int_equal(cage.fvar, OTX_FVAR_CORNERS_PLUS1);
+    assert_int_equal(last_finding(run).severity, OSDTEX_SEVERITY_WARNING);
+
+    options.boundary = 3;
+    assert_int_equal(
+        otx_cage_build(run, &in, &options, &cage), OSDTEX_ERROR_ARGUMENT);
+    test_run_destroy(run);
+}
+
+static void
+test_empty(void **state)
+{
+    otx_run *run = test_run_create();
+    static const int32_t zero = 0;
+    otx_cage_input in = otx_cage_input_none();
+
+    (void)state;
+    in.face_first = &zero;
+    expect(run, &in, OSDTEX_ERROR_TOPOLOGY, "no faces");
+    in.points = cube_points;
+    in.vert_count = 8;
+    expect(run, &in, OSDTEX_ERROR_TOPOLOGY, "no faces");
+    test_run_destroy(run);
+}
+
+static void
+test_indices(void **state)
+{
+    static const int32_t bad[] = {8, -1, INT32_MAX, INT32_MIN, 1000000};
+
+    (void)state;
+    for (int32_t i = 0; i < COUNT(bad); ++i)
+    {
+        otx_run *run = test_run_create();
+        otx_cage_input in = mesh_cube(run);
+        int32_t verts[24];
+        const int64_t lines[] = {10, 11, 12, 13, 14, 15};
+
+        memcpy(verts, cube_verts, sizeof verts);
+        verts[13] = bad[i];
+        in.face_verts = verts;
+        in.face_line = lines;
+        expect(run, &in, OSDTEX_ERROR_FORMAT, "face 3 refers to vertex");
+        assert_int_equal(last_finding(run).line, 13);
+        assert_int_equal(last_finding(run).face, 3);
+        assert_string_equal(last_finding(run).file, "test.obj");
+        test_run_destroy(run);
+    }
+}
+
+static void
+test_faces(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_cage_input in = mesh_cube(run);
+    int32_t verts[24];
+    int32_t first[] = {0, 4, 8, 12, 16, 20, 22};
+
+    (void)state;
+    in.face_first = first;
+    expect(run, &in, OSDTEX_ERROR_TOPOLOGY, "face 5 has 2 corners");
+    first[6] = 20;
+    expect(run, &in, OSDTEX_ERROR_TOPOLOGY, "face 5 has");
+
+    in = mesh_cube(run);
+    memcpy(verts, cube_verts, sizeof verts);
+    verts[4] = verts[6];
+    in.face_verts = verts;
+    expect(run, &in, OSDTEX_ERROR_TOPOLOGY, "face 1 repeats vertex 5");
+    test_run_destroy(run);
+}
+
+static void
+test_like_findings_are_counted(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_cage_input in = mesh_cube(run);
+    int32_t verts[24];
+
+    (void)state;
+    memcpy(verts, cube_verts, sizeof verts);
+    verts[5] = verts[4];
+    verts[9] = verts[8];
+    verts[21] = verts[20];
+    in.face_verts = verts;
+    expect(run, &in, OSDTEX_ERROR_TOPOLOGY, "face 1 repeats");
+    assert_int_equal(last_finding(run).count, 3);
+    test_run_destroy(run);
+}
+
+static void
+test_points(void **state)
+{
+    static const float bad[] = {NAN, INFINITY, -INFINITY, 3e38f};
+    otx_run *run = test_run_create();
+    otx_cage_input in = mesh_cube(run);
+    float points[24];
+
+    (void)state;
+    in.points = points;
+    for (int32_t i = 0; i < COUNT(bad); ++i)
+    {
+        memcpy(points, cube_points, sizeof points);
+        points[10] = bad[i];
+        expect(run, &in, OSDTEX_ERROR_NUMERIC, "vertex 3");
+    }
+    for (int32_t i = 0; i < 24; ++i)
+        points[i] = 4.5f;
+    expect(run, &in, OSDTEX_ERROR_NUMERIC, "one point");
+    test_run_destroy(run);
+}
+
+static void
+test_loop_needs_triangles(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_cage_input in = mesh_cube(run);
+    otx_cage_options options = otx_cage_options_default();
+    otx_cage cage;
+
+    (void)state;
+    options.scheme = OTX_SCHEME_LOOP;
+    assert_int_equal(
+        otx_cage_build(run, &in, &options, &cage), OSDTEX_ERROR_TOPOLOGY);
+    assert_non_null(strstr(test_last_message(run), "--scheme catmark"));
+    assert_int_equal(last_finding(run).face, 0);
+
+    in = mesh_octahedron(run);
+    options.scheme = OTX_SCHEME_CATMARK;
+    mesh_build(run, &in, &options);
+    assert_int_equal(last_finding(run).severity, OSDTEX_SEVERITY_INFO);
+    assert_non_null(strstr(test_last_message(run), "--scheme loop"));
+    test_run_destroy(run);
+}
+
+static void
+test_manifold(void **state)
+{
+    /* Two triangles over an edge, and a third; its winding; a copy. */
+    static const float points[] = {
+        0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 3, 1, 0, 4, 0, 0};
+    static const int32_t three[] = {0, 1, 2, 1, 0, 3, 0, 1, 4};
+    static const int32_t flipped[] = {0, 1, 2, 0, 1, 3};
+    static const int32_t copied[] = {0, 1, 2, 1, 2, 0};
+    static const int32_t bow_tie[] = {0, 1, 2, 1, 6, 5};
+    static const int32_t pillow[] = {0, 1, 2, 2, 1, 0};
+    otx_run *run = test_run_create();
+    otx_cage_input in;
+
+    (void)state;
+    in = mesh_input(run, points, 7, three, 3, 3);
+    expect(run, &in, OSDTEX_ERROR_TOPOLOGY, "3 faces (0, 1, 2) share the edge");
+    in = mesh_input(run, points, 7, flipped, 2, 3);
+    expect(run, &in, OSDTEX_ERROR_TOPOLOGY, "faces 0 and 1 are wound against");
+    assert_non_null(strstr(test_last_message(run), "flip one of them"));
+    in = mesh_input(run, points, 7, copied, 2, 3);
+    expect(run, &in, OSDTEX_ERROR_TOPOLOGY, "face 1 is the same as face 0");
+    in = mesh_input(run, points, 7, bow_tie, 2, 3);
+    expect(run, &in, OSDTEX_ERROR_TOPOLOGY, "touch only at vertex 1");
+    assert_int_equal(last_finding(run).vertex, 1);
+    in = mesh_input(run, points, 3, pillow, 2, 3);
+    expect(run, &in, OSDTEX_OK, "");
+    test_run_destroy(run);
+}
+
+static void
+test_isolated_vertices_are_kept(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_cage_input in = mesh_cube(run);
+    float points[30] = {0};
+    otx_cage cage;
+
+    (void)state;
+    memcpy(points, cube_points, sizeof cube_points);
+    points[24] = 1000.0f;
+    in.points = points;
+    in.vert_count = 10;
+    cage = mesh_build(run, &in, NULL);
+    assert_int_equal(cage.vert_count, 10);
+    assert_true(fabs(cage.diagonal - sqrt(12.0)) < 1e-12);
+    assert_int_equal(last_finding(run).severity, OSDTEX_SEVERITY_WARNING);
+    assert_non_null(strstr(test_last_message(run), "2 vertices"));
+    assert_int_equal(last_finding(run).vertex, 8);
+    test_run_destroy(run);
+}
+
+static void
+test_faces_without_area(void **state)
+{
+    static const float points[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 1, 1, 0};
+    static const int32_t verts[] = {0, 1, 2, 0, 2, 3};
+    otx_run *run = test_run_create();
+    const otx_cage_input in = mesh_input(run, points, 4, verts, 2, 3);
+
+    (void)state;
+    expect(run, &in, OSDTEX_OK, "triangles");
+    assert_int_equal(otx_diagnostics_count(run->diagnostics), 2);
+    test_run_destroy(run);
+}
+
+static void
+test_uvs(void **state)
+{
+    static const float uvs[] = {0, 0, 1, 0, 1, 1, 0, 1};
+    static const float broken[] = {0, 0, NAN, 0, 1, 1, 0, 1};
+    otx_run *run = test_run_create();
+    otx_cage_input in = mesh_cube(run);
+    int32_t face_uvs[24];
+    otx_cage cage;
+
+    (void)state;
+    for (int32_t i = 0; i < 24; ++i)
+        face_uvs[i] = i % 4;
+    in.uvs = uvs;
+    in.uv_count = 4;
+    in.face_uvs = face_uvs;
+    cage = mesh_build(run, &in, NULL);
+    assert_int_equal(cage.uv_count, 4);
+    assert_memory_equal(cage.face_uvs, face_uvs, sizeof face_uvs);
+
+    in.uvs = broken;
+    cage = mesh_build(run, &in, NULL);
+    assert_int_equal(cage.uv_count, 0);
+    in.uvs = uvs;
+
+    memset(face_uvs + 8, -1, 4 * sizeof *face_uvs);
+    cage = mesh_build(run, &in, NULL);
+    assert_int_equal(cage.uv_count, 0);
+    assert_null(cage.face_uvs);
+    assert_non_null(strstr(test_last_message(run), "first in face 2"));
+
+    face_uvs[9] = 4;
+    expect(run, &in, OSDTEX_ERROR_FORMAT, "face 2 refers to UV 4");
+    face_uvs[9] = -2;
+    expect(run, &in, OSDTEX_ERROR_FORMAT, "UV -2");
+    test_run_destroy(run);
+}
+
+static void
+test_tags(void **state)
+{
+    int32_t creases[] = {0, 1, 1, 3, 0, 3};
+    float sharpness[] = {2.5f, INFINITY, 1.0f};
+    const int64_t lines[] = {7, 8, 9};
+    otx_run *run = test_run_create();
+    otx_cage_input in = mesh_cube(run);
+    otx_cage cage;
+
+    (void)state;
+    in.crease_count = 3;
+    in.crease_verts = creases;
+    in.crease_sharpness = sharpness;
+    in.crease_line = lines;
+    cage = mesh_build(run, &in, NULL);
+    assert_int_equal(cage.crease_count, 2);
+    assert_true(cage.crease_sharpness[0] == 2.5f);
+    assert_true(cage.crease_sharpness[1] == 10.0f);
+    assert_non_null(strstr(test_last_message(run), "no edge between"));
+    assert_int_equal(last_finding(run).line, 9);
+
+    creases[3] = 8;
+    expect(run, &in, OSDTEX_ERROR_FORMAT, "crease refers to vertex 8");
+    creases[3] = 3;
+    sharpness[0] = NAN;
+    expect(run, &in, OSDTEX_ERROR_FORMAT, "sharpness");
+    sharpness[0] = -1.0f;
+    expect(run, &in, OSDTEX_ERROR_FORMAT, "sharpness -1");
+    test_run_destroy(run);
+}
+
+static void
+test_corners_and_holes(void **state)
+{
+    int32_t corner = 2;
+    float sharpness = 25.0f;
+    int32_t holes[] = {1, 1, 2, 0, 3, 4, 5};
+    otx_run *run = test_run_create();
+    otx_cage_input in = mesh_cube(run);
+    otx_cage cage;
+
+    (void)state;
+    in.corner_tag_count = 1;
+    in.corner_tag_verts = &corner;
+    in.corner_tag_sharpness = &sharpness;
+    in.hole_faces = holes;
+    in.hole_count = 3;
+    cage = mesh_build(run, &in, NULL);
+    assert_true(cage.corner_tag_sharpness[0] == 10.0f);
+    assert_int_equal(cage.face_hole[1] + cage.face_hole[2], 2);
+    assert_int_equal(cage.face_hole[0], 0);
+    in.hole_count = 7;
+    expect(run, &in, OSDTEX_ERROR_TOPOLOGY, "every face is tagged as a hole");
+    holes[0] = 6;
+    expect(run, &in, OSDTEX_ERROR_FORMAT, "hole refers to face 6");
+    holes[0] = -1;
+    expect(run, &in, OSDTEX_ERROR_FORMAT, "hole refers to face -1");
+    in.hole_count = 0;
+    corner = -1;
+    expect(run, &in, OSDTEX_ERROR_FORMAT, "corner refers to vertex -1");
+    test_run_destroy(run);
+}
+
+static void
+test_valence(void **state)
+{
+    enum
+    {
+        N = OTX_CAGE_VALENCE_MAX + 1
+    };
+    otx_run *run = test_run_create();
+    float *points = OTX_ZNEW(run->arena, float, 3 * (N + 1));
+    int32_t *verts = OTX_NEW(run->arena, int32_t, 3 * N);
+    otx_cage_input in = mesh_input(run, points, N + 1, verts, N, 3);
+
+    (void)state;
+    for (int32_t i = 0; i < N; ++i)
+    {
+        points[3 * i] = (float)cos(2.0 * OTX_PI * i / N);
+        points[3 * i + 1] = (float)sin(2.0 * OTX_PI * i / N);
+        verts[3 * i] = N;
+        verts[3 * i + 1] = i;
+        verts[3 * i + 2] = (i + 1) % N;
+    }
+    expect(run, &in, OSDTEX_ERROR_LIMIT, "vertex 8193 joins 8193 faces");
+    in = mesh_input(run, points, N + 1, verts, 1, N);
+    for (int32_t i = 0; i < N; ++i)
+        verts[i] = i;
+    expect(run, &in, OSDTEX_ERROR_LIMIT, "face 0 has 8193 corners");
+    test_run_destroy(run);
+}
+
+static void
+test_names_are_carried(void **state)
+{
+    static const char *const materials[] = {"red paint", "steel"};
+    static const int32_t face_material[] = {-1, 0, 0, 1, 1, 7};
+    otx_run *run = test_run_create();
+    otx_cage_input in = mesh_cube(run);
+    otx_cage cage;
+
+    (void)state;
+    in.material_count = 2;
+    in.material_names = materials;
+    in.face_material = face_material;
+    in.library_count = 1;
+    in.library_names = materials;
+    cage = mesh_build(run, &in, NULL);
+    assert_string_equal(cage.material_names[cage.face_material[4]], "steel");
+    assert_int_equal(cage.face_material[0], -1);
+    assert_int_equal(cage.face_material[5], -1);
+    assert_string_equal(cage.library_names[0], "red paint");
+    test_run_destroy(run);
+}
+
+/* Each is either refused with a sentence or makes a surface that validates. */
+static void
+test_hostile_files(void **state)
+{
+    static const char *const refused[] = {
+        "catmark_nonman_edges",     "catmark_nonman_verts",
+        "catmark_nonman_quadpole8", "loop_nonman_verts",
+        "fan3_nonmanifold",         "obj_bad_crease",
+        "obj_huge_index",           "obj_mixed_winding_cube",
+        "tinyobj_test-nan",         "xatlas_degenerate_edge",
+        "assimp_point_cloud",       "assimp_regr_3429812"};
+    static const char *const accepted[] = {
+        "catmark_nonman_bareverts", "catmark_val2_back2back",
+        "xatlas_zero_area_face",    "xatlas_double_sided",
+        "obj_negative_indices",     "assimp_box_without_lineending"};
+    char path[256];
+
+    (void)state;
+    snprintf(path, sizeof path, SHARED_DATA "/hostile/%s.obj", refused[0]);
+    if (access(path, R_OK) != 0)
+    {
+        print_message("skipped: no " SHARED_DATA "\n");
+        skip();
+    }
+    for (int32_t i = 0; i < COUNT(refused) + COUNT(accepted); ++i)
+    {
+        const bool good = i >= COUNT(refused);
+        otx_run *run = test_run_create();
+        otx_status status;
+        otx_cage cage;
+
+        snprintf(
+            path, sizeof path, SHARED_DATA "/hostile/%s.obj",
+            good ? accepted[i - COUNT(refused)] : refused[i]);
+        status = mesh_cage_from_file(run, path, &cage);
+        if ((status == OSDTEX_OK) != good)
+            fail_msg("%s: %d %s", path, status, test_last_message(run));
+        if (good)
+        {
+            const otx_surface s = mesh_refine(run, &cage, 3);
+
+            assert_int_equal(otx_surface_validate(run, &s), OSDTEX_OK);
+        }
+        test_run_destroy(run);
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_good_cage_is_kept),
+        cmocka_unit_test(test_user_then_file_then_default),
+        cmocka_unit_test(test_empty),
+        cmocka_unit_test(test_indices),
+        cmocka_unit_test(test_faces),
+        cmocka_unit_test(test_like_findings_are_counted),
+        cmocka_unit_test(test_points),
+        cmocka_unit_test(test_loop_needs_triangles),
+        cmocka_unit_test(test_manifold),
+        cmocka_unit_test(test_isolated_vertices_are_kept),
+        cmocka_unit_test(test_faces_without_area),
+        cmocka_unit_test(test_uvs),
+        cmocka_unit_test(test_tags),
+        cmocka_unit_test(test_corners_and_holes),
+        cmocka_unit_test(test_valence),
+        cmocka_unit_test(test_names_are_carried),
+        cmocka_unit_test(test_hostile_files)};
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
