@@ -7,14 +7,18 @@
 #ifndef OTX_EXPORT_MODEL_H
 #define OTX_EXPORT_MODEL_H
 
+#include "file/atomic_file.h"
 #include "image/exemplar.h"
 #include "mapping/mapping.h"
 
 typedef struct otx_model_options
 {
     const char *path;   /* of the OBJ; ".obj" is required */
-    bool without_image; /* neither write the EXR nor replace one */
-    /* Comment lines of OBJ and MTL, without "# ". */
+    bool without_image; /* leave NAME.exr as it is; the MTL names it still */
+    /* NULL: the files are put into place at once. Else they join this set,
+     * which the caller commits with whatever else belongs to the job. */
+    otx_atomic_file_set *set;
+    /* Comment lines of the OBJ, without "# ". */
     int32_t comment_count;
     const char *const *comments;
 } otx_model_options;
@@ -33,10 +37,11 @@ typedef struct otx_model_files
  * of cage face 1, …; holes are left out, vertices that no face uses stay.
  * Equal UVs of a vertex share one `vt`. Groups, objects, smoothing and
  * materials of the cage are carried; where the cage names no material the name
- * is NAME. Spaces in NAME become `_` in the MTL's and EXR's names, with a
- * warning, because readers split there.
+ * is NAME; all of them show the same texture. See export/names.h for NAMEs that
+ * readers would split.
  *
- * ARGUMENT for a path that is not an OBJ's, IO, LIMIT, MEMORY. */
+ * ARGUMENT for a path that is not an OBJ's or UVs that are not finite, IO,
+ * MEMORY. */
 otx_status otx_model_write(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
     const otx_model_options *options, otx_model_files *out);

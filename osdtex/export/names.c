@@ -1,0 +1,88 @@
+/* names.c -- which files a model is made of. */
+#include "export/names.h"
+
+#include <string.h>
+#include <strings.h>
+
+static const char STAGE[] = "export";
+static const char SUFFIX[] = ".obj";
+
+static bool
+is_split_by_readers(char c)
+{
+    return c == ' ' || c == '\t' || c == '#' || c == '\\';
+}
+
+/* Makes one word of `stem`; whether anything changed. */
+static bool
+make_word(char *stem)
+{
+    bool changed = false;
+
+    for (char *c = stem; *c; ++c)
+        if (is_split_by_readers(*c) || (c == stem && *c == '-'))
+        {
+            *c = '_';
+            changed = true;
+        }
+    return changed;
+}
+
+/* folder + stem + suffix; NULL when memory is out. */
+static const char *
+join(
+    otx_arena *arena, const char *folder, size_t folder_bytes, const char *stem,
+    const char *suffix)
+{
+    const size_t stem_bytes = strlen(stem);
+    const size_t suffix_bytes = strlen(suffix) + 1;
+    char *out = OTX_NEW(arena, char, folder_bytes + stem_bytes + suffix_bytes);
+
+    if (!out)
+        return NULL;
+    memcpy(out, folder, folder_bytes);
+    memcpy(out + folder_bytes, stem, stem_bytes);
+    memcpy(out + folder_bytes + stem_bytes, suffix, suffix_bytes);
+    return out;
+}
+
+otx_status
+otx_names_derive(
+    otx_run *run, otx_arena *arena, const char *path, otx_names *out)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    const size_t folder_bytes = (size_t)(name - path);
+    const size_t suffix_bytes = sizeof SUFFIX - 1;
+    const size_t name_bytes = strlen(name);
+    otx_where where = OTX_NOWHERE;
+    char *stem;
+
+    where.file = path;
+    if (name_bytes <= suffix_bytes ||
+        strcasecmp(name + name_bytes - suffix_bytes, SUFFIX) != 0)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, where,
+            "the output must be called NAME.obj");
+    stem = otx_arena_strdup(arena, name);
+    if (!stem)
+        return otx_fail_memory(run, STAGE);
+    stem[name_bytes - suffix_bytes] = '\0';
+    if (make_word(stem))
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, STAGE, where,
+            "readers split names at blanks, so the material file and the "
+            "texture are called %s.mtl and %s.exr",
+            stem, stem);
+    *out = (otx_names){
+        .obj = otx_arena_strdup(arena, path),
+        .mtl = join(arena, path, folder_bytes, stem, ".mtl"),
+        .exr = join(arena, path, folder_bytes, stem, ".exr"),
+        .mtl_name = join(arena, "", 0, stem, ".mtl"),
+        .exr_name = join(arena, "", 0, stem, ".exr"),
+        .stem = stem,
+    };
+    if (!out->obj || !out->mtl || !out->exr || !out->mtl_name || !out->exr_name)
+        return otx_fail_memory(run, STAGE);
+    return OSDTEX_OK;
+}

@@ -1,0 +1,24 @@
+/* names.h -- the files of a model, from the name that was asked for. */
+#ifndef OTX_EXPORT_NAMES_H
+#define OTX_EXPORT_NAMES_H
+
+#include "base/run.h"
+
+/* Strings live in the arena they were made in. */
+typedef struct otx_names
+{
+    const char *obj, *mtl, *exr; /* paths, in the folder of the OBJ */
+    const char *mtl_name; /* without the folder, as the OBJ refers to it */
+    const char *exr_name; /* as the MTL refers to it */
+    const char *stem;     /* NAME, readable as one word */
+} otx_names;
+
+/* Derives NAME.mtl and NAME.exr from `path`, FOLDER/NAME.obj. What readers of
+ * OBJ and MTL split, take for a comment or for an option (blanks, `#`, `\`, a
+ * leading `-`) becomes `_` in the derived names, with a warning; the OBJ's own
+ * name is left as it is. ARGUMENT when `path` does not end in ".obj" after a
+ * name, MEMORY. */
+otx_status otx_names_derive(
+    otx_run *run, otx_arena *arena, const char *path, otx_names *out);
+
+#endif
