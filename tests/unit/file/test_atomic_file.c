@@ -1,0 +1,189 @@
+/* test_atomic_file.c -- all files of a set appear, or none. */
+#include "support.h"
+
+#include "file/atomic_file.h"
+
+#include <dirent.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+typedef struct fixture
+{
+    otx_run *run;
+    char folder[32];
+    char a[64], b[64];
+} fixture;
+
+static int
+begin(void **state)
+{
+    fixture *f = calloc(1, sizeof *f);
+
+    strcpy(f->folder, "/tmp/osdtex-atomic-XXXXXX");
+    assert_non_null(mkdtemp(f->folder));
+    snprintf(f->a, sizeof f->a, "%s/a.obj", f->folder);
+    snprintf(f->b, sizeof f->b, "%s/b.exr", f->folder);
+    f->run = test_run_create();
+    *state = f;
+    return 0;
+}
+
+static int
+end(void **state)
+{
+    fixture *f = *state;
+
+    test_run_destroy(f->run);
+    unlink(f->a);
+    unlink(f->b);
+    rmdir(f->b);
+    assert_int_equal(rmdir(f->folder), 0);
+    free(f);
+    return 0;
+}
+
+static int
+count_files(const fixture *f)
+{
+    DIR *folder = opendir(f->folder);
+    const struct dirent *entry;
+    int count = 0;
+
+    while ((entry = readdir(folder)))
+        count += entry->d_name[0] != '.';
+    closedir(folder);
+    return count;
+}
+
+static void
+put(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+
+    fputs(text, file);
+    fclose(file);
+}
+
+static bool
+holds(const char *path, const char *text)
+{
+    char found[32] = "";
+    FILE *file = fopen(path, "r");
+
+    if (!file)
+        return false;
+    found[fread(found, 1, sizeof found - 1, file)] = '\0';
+    fclose(file);
+    return strcmp(found, text) == 0;
+}
+
+/* A set of two files, written to their temporaries. */
+static otx_atomic_file_set *
+make_set(fixture *f)
+{
+    otx_atomic_file_set *set;
+    const char *temporary;
+
+    assert_int_equal(
+        otx_atomic_file_begin(f->run, f->run->scratch, &set), OSDTEX_OK);
+    assert_int_equal(
+        otx_atomic_file_add(f->run, set, f->a, &temporary), OSDTEX_OK);
+    put(temporary, "new a");
+    assert_int_equal(
+        otx_atomic_file_add(f->run, set, f->b, &temporary), OSDTEX_OK);
+    put(temporary, "new b");
+    return set;
+}
+
+static void
+commit_replaces_all(void **state)
+{
+    fixture *f = *state;
+    const otx_arena_mark mark = otx_arena_here(f->run->scratch);
+    otx_atomic_file_set *set;
+
+    put(f->a, "old a");
+    set = make_set(f);
+    assert_true(holds(f->a, "old a"));
+    assert_int_equal(otx_atomic_file_commit(f->run, set, true), OSDTEX_OK);
+    otx_arena_release(f->run->scratch, mark);
+    assert_true(holds(f->a, "new a"));
+    assert_true(holds(f->b, "new b"));
+    assert_int_equal(count_files(f), 2);
+}
+
+static void
+release_without_commit_leaves_what_was(void **state)
+{
+    fixture *f = *state;
+    const otx_arena_mark mark = otx_arena_here(f->run->scratch);
+
+    put(f->a, "old a");
+    make_set(f);
+    assert_int_equal(count_files(f), 3);
+    otx_arena_release(f->run->scratch, mark);
+    assert_true(holds(f->a, "old a"));
+    assert_int_equal(count_files(f), 1);
+}
+
+static void
+two_jobs_do_not_meet(void **state)
+{
+    fixture *f = *state;
+    otx_atomic_file_set *first = make_set(f), *second = make_set(f);
+
+    assert_int_equal(count_files(f), 4);
+    assert_int_equal(otx_atomic_file_commit(f->run, second, false), OSDTEX_OK);
+    assert_int_equal(otx_atomic_file_commit(f->run, first, false), OSDTEX_OK);
+    assert_int_equal(count_files(f), 2);
+}
+
+static void
+a_failing_rename_takes_back_new_files(void **state)
+{
+    fixture *f = *state;
+    otx_atomic_file_set *set = make_set(f);
+
+    /* A folder has come to stand where the second file goes. */
+    assert_int_equal(mkdir(f->b, 0777), 0);
+    assert_int_equal(
+        otx_atomic_file_commit(f->run, set, false), OSDTEX_ERROR_IO);
+    assert_int_equal(count_files(f), 1);
+}
+
+static void
+impossible_places_are_refused_at_once(void **state)
+{
+    fixture *f = *state;
+    otx_atomic_file_set *set;
+    const char *temporary;
+
+    assert_int_equal(
+        otx_atomic_file_begin(f->run, f->run->scratch, &set), OSDTEX_OK);
+    assert_int_equal(
+        otx_atomic_file_add(f->run, set, "/nowhere/at/all.obj", &temporary),
+        OSDTEX_ERROR_IO);
+    assert_null(temporary);
+    assert_non_null(strstr(test_last_message(f->run), "No such file"));
+    assert_int_equal(
+        otx_atomic_file_add(f->run, set, f->folder, &temporary),
+        OSDTEX_ERROR_IO);
+    assert_int_equal(
+        otx_atomic_file_add(f->run, set, "/dev/null", &temporary),
+        OSDTEX_ERROR_IO);
+    assert_non_null(strstr(test_last_message(f->run), "device"));
+    assert_int_equal(otx_atomic_file_commit(f->run, set, false), OSDTEX_OK);
+}
+
+int
+main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
+    const struct CMUnitTest tests[] = {
+        TEST(commit_replaces_all), TEST(release_without_commit_leaves_what_was),
+        TEST(two_jobs_do_not_meet), TEST(a_failing_rename_takes_back_new_files),
+        TEST(impossible_places_are_refused_at_once)};
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
