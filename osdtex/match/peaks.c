@@ -78,6 +78,26 @@ is_minimum(const otx_peaks_map *map, int32_t x, int32_t y)
     return true;
 }
 
+/* A neighbour in the row undercuts: most pixels end here. */
+static inline bool
+is_undercut(const float *row, int32_t x)
+{
+    return row[x - 1] < row[x] || row[x + 1] < row[x];
+}
+
+/* The first x in [x, end) of a value that is at most `limit`. */
+static int32_t
+skip_above(const float *row, int32_t x, int32_t end, float limit)
+{
+    for (; x + 4 <= end; x += 4)
+        if ((row[x] <= limit) | (row[x + 1] <= limit) | (row[x + 2] <= limit) |
+            (row[x + 3] <= limit))
+            break;
+    while (x < end && !(row[x] <= limit))
+        ++x;
+    return x;
+}
+
 void
 otx_peaks_scan(
     const otx_peaks_map *map, int32_t angle, double offset, double scale,
@@ -91,9 +111,12 @@ otx_peaks_scan(
     {
         const float *row = map->values + (size_t)y * map->stride;
 
-        for (int32_t x = map->x_begin; x < map->x_end; ++x)
+        for (int32_t x = map->x_begin;
+             (x = skip_above(row, x, map->x_end, limit)) < map->x_end; ++x)
         {
-            if (!(row[x] <= limit) || !is_minimum(map, x, y))
+            const bool inside = x > map->x_begin && x + 1 < map->x_end;
+
+            if ((inside && is_undercut(row, x)) || !is_minimum(map, x, y))
                 continue;
             otx_peaks_insert(
                 peaks, &(otx_peak){

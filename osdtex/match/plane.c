@@ -119,35 +119,44 @@ fill_component(const otx_plane *plane, int32_t channel, float *rows)
 }
 
 static otx_status
+transform_components(otx_run *run, otx_plane *plane)
+{
+    const otx_fft *fft = plane->fft;
+    const size_t floats = otx_fft_spectrum_floats(fft);
+    const float unit =
+        (float)(1.0 / ((double)plane->fft_width * plane->fft_height));
+    float *scratch = OTX_NEW(run->scratch, float, otx_fft_scratch_floats(fft));
+    float *rows = OTX_NEW(
+        run->scratch, float, (size_t)plane->fft_height *otx_fft_stride(fft));
+
+    if (!rows || !scratch)
+        return otx_fail_memory(run, "match");
+    for (int32_t c = 0; c <= plane->channels; ++c)
+    {
+        plane->spectra[c] = OTX_NEW(run->arena, float, floats);
+        if (!plane->spectra[c])
+            return otx_fail_memory(run, "match");
+        fill_component(plane, c, rows);
+        otx_fft_forward(
+            fft, c < plane->channels ? -2.0f * unit : unit, rows, scratch,
+            plane->spectra[c]);
+    }
+    return OSDTEX_OK;
+}
+
+static otx_status
 make_spectra(otx_run *run, otx_plane *plane)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    const float unit =
-        (float)(1.0 / ((double)plane->fft_width * plane->fft_height));
+    otx_status status;
     otx_fft *fft;
-    size_t floats;
-    float *rows;
 
     OTX_TRY(otx_fft_create(
         run, run->arena, plane->fft_width, plane->fft_height, &fft));
     plane->fft = fft;
-    floats = otx_fft_spectrum_floats(fft);
-    rows = OTX_NEW(run->scratch, float, floats);
-    for (int32_t c = 0; c <= plane->channels; ++c)
-    {
-        plane->spectra[c] = OTX_NEW(run->arena, float, floats);
-        if (!rows || !plane->spectra[c])
-        {
-            otx_arena_release(run->scratch, mark);
-            return otx_fail_memory(run, "match");
-        }
-        fill_component(plane, c, rows);
-        otx_fft_forward(
-            fft, c < plane->channels ? -2.0f * unit : unit, rows,
-            plane->spectra[c]);
-    }
+    status = transform_components(run, plane);
     otx_arena_release(run->scratch, mark);
-    return OSDTEX_OK;
+    return status;
 }
 
 otx_status

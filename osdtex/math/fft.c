@@ -7,6 +7,11 @@
  * a masked search cheaper than the same transforms through FFTW's own
  * two-dimensional plans; docs/notes/match.md has the figures.
  *
+ * A block is transposed, so that each column is contiguous: that is two to
+ * three times as fast to transform as columns that lie side by side. The pitch
+ * of a column is not a power of two, else the columns of a block would share
+ * their cache sets.
+ *
  * Plans are made with FFTW_ESTIMATE: measured plans depend on timing, and with
  * them the last bits of the results. */
 #include "math/fft.h"
@@ -17,18 +22,23 @@
 
 enum
 {
-    BLOCK = 8, /* columns: one cache line of complex numbers */
-    BLOCK_FLOATS = 2 * BLOCK
+    BLOCK = 8 /* columns: one cache line of complex numbers of a row */
 };
+
+typedef struct complex_float
+{
+    float re, im;
+} complex_float;
 
 struct otx_fft
 {
     int32_t width;
     int32_t height;
     int32_t block_count;
-    fftwf_plan row_forward;    /* in place, real to complex */
-    fftwf_plan row_inverse;    /* in place, complex to real */
-    fftwf_plan column_forward; /* in place, BLOCK columns */
+    size_t pitch; /* from column to column of a block, complex numbers */
+    fftwf_plan row_forward;    /* real to complex, in place */
+    fftwf_plan row_inverse;    /* complex to real, in a buffer to its place */
+    fftwf_plan column_forward; /* BLOCK columns, from buffer to buffer */
     fftwf_plan column_inverse;
 };
 
@@ -53,24 +63,29 @@ destroy_plans(void *object)
 }
 
 static fftwf_plan
-plan_columns(const otx_fft *fft, fftwf_complex *block, int sign)
+plan_columns(const otx_fft *fft, fftwf_complex *buffer, int sign)
 {
+    const int pitch = (int)fft->pitch;
+
     return fftwf_plan_many_dft(
-        1, &fft->height, BLOCK, block, NULL, BLOCK, 1, block, NULL, BLOCK, 1,
-        sign, FFTW_ESTIMATE);
+        1, &fft->height, BLOCK, buffer, NULL, 1, pitch,
+        buffer + BLOCK * fft->pitch, NULL, 1, pitch, sign, FFTW_ESTIMATE);
 }
 
-/* `row` and `block` tell the planner the alignment; they are not touched. */
+/* `row` (two of them) and `buffer` (two blocks) tell the planner the
+ * alignment; they are not touched. */
 static bool
-make_plans(otx_fft *fft, float *row, fftwf_complex *block)
+make_plans(otx_fft *fft, float *row, fftwf_complex *buffer)
 {
+    float *other = row + otx_fft_stride(fft);
+
     pthread_mutex_lock(&planner);
     fft->row_forward = fftwf_plan_dft_r2c_1d(
         fft->width, row, (fftwf_complex *)row, FFTW_ESTIMATE);
     fft->row_inverse = fftwf_plan_dft_c2r_1d(
-        fft->width, (fftwf_complex *)row, row, FFTW_ESTIMATE);
-    fft->column_forward = plan_columns(fft, block, FFTW_FORWARD);
-    fft->column_inverse = plan_columns(fft, block, FFTW_BACKWARD);
+        fft->width, (fftwf_complex *)row, other, FFTW_ESTIMATE);
+    fft->column_forward = plan_columns(fft, buffer, FFTW_FORWARD);
+    fft->column_inverse = plan_columns(fft, buffer, FFTW_BACKWARD);
     pthread_mutex_unlock(&planner);
     return fft->row_forward && fft->row_inverse && fft->column_forward &&
            fft->column_inverse;
@@ -83,8 +98,9 @@ otx_fft_create(
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     otx_fft *fft = OTX_ZNEW(arena, otx_fft, 1);
-    float *row;
-    fftwf_complex *block;
+    float *rows;
+    fftwf_complex *buffer;
+    bool planned;
 
     *out = NULL;
     if (!fft)
@@ -92,15 +108,11 @@ otx_fft_create(
     fft->width = width;
     fft->height = height;
     fft->block_count = (width / 2 + 1 + BLOCK - 1) / BLOCK;
-    row = OTX_NEW(run->scratch, float, otx_fft_stride(fft));
-    block = OTX_NEW(run->scratch, fftwf_complex, (size_t)height * BLOCK);
-    if (!row || !block || !otx_arena_defer(arena, destroy_plans, fft))
-    {
-        otx_arena_release(run->scratch, mark);
-        return otx_fail_memory(run, "match");
-    }
-    const bool planned = make_plans(fft, row, block);
-
+    fft->pitch = ((size_t)height + 7) / 8 * 8 + 8;
+    rows = OTX_NEW(run->scratch, float, 2 * otx_fft_stride(fft));
+    buffer = OTX_NEW(run->scratch, fftwf_complex, 2 * BLOCK * fft->pitch);
+    planned = rows && buffer && otx_arena_defer(arena, destroy_plans, fft) &&
+              make_plans(fft, rows, buffer);
     otx_arena_release(run->scratch, mark);
     if (!planned)
         return otx_fail_memory(run, "match");
@@ -130,20 +142,26 @@ otx_fft_good_size(int32_t size)
 size_t
 otx_fft_stride(const otx_fft *fft)
 {
-    return (size_t)fft->block_count * BLOCK_FLOATS;
+    return (size_t)fft->block_count * BLOCK * 2;
+}
+
+static size_t
+block_floats(const otx_fft *fft)
+{
+    return 2 * BLOCK * fft->pitch;
 }
 
 size_t
 otx_fft_spectrum_floats(const otx_fft *fft)
 {
-    return (size_t)fft->height * otx_fft_stride(fft);
+    return (size_t)fft->block_count * block_floats(fft);
 }
 
-/* Two blocks of columns: the transform in hand and the running sum. */
+/* Three blocks: gathered, transformed, summed; and one row. */
 size_t
 otx_fft_scratch_floats(const otx_fft *fft)
 {
-    return 2 * (size_t)fft->height * BLOCK_FLOATS;
+    return 3 * block_floats(fft) + otx_fft_stride(fft);
 }
 
 static void
@@ -162,72 +180,87 @@ transform_rows(const otx_fft *fft, float *plane, int32_t row_count)
     }
 }
 
-/* Gathers block `b` of transformed rows, zero above them, and transforms its
- * columns. */
+/* Transposes block `b` of transformed rows to columns, zero above them. */
 static void
-transform_block(
+gather_block(
     const otx_fft *fft, const float *plane, int32_t row_count, int32_t b,
     float *block)
 {
-    const size_t stride = otx_fft_stride(fft);
-    const float *from = plane + (size_t)b * BLOCK_FLOATS;
+    const size_t stride = otx_fft_stride(fft) / 2;
+    const size_t pitch = fft->pitch;
+    const size_t count = (size_t)row_count;
+    const complex_float *from =
+        (const complex_float *)plane + (size_t)b * BLOCK;
+    complex_float *to = (complex_float *)block;
 
-    for (size_t y = 0; y < (size_t)row_count; ++y)
-        memcpy(
-            block + y * BLOCK_FLOATS, from + y * stride,
-            BLOCK_FLOATS * sizeof *block);
-    memset(
-        block + (size_t)row_count * BLOCK_FLOATS, 0,
-        (size_t)(fft->height - row_count) * BLOCK_FLOATS * sizeof *block);
-    fftwf_execute_dft(
-        fft->column_forward, (fftwf_complex *)block, (fftwf_complex *)block);
+    for (size_t y = 0; y < count; ++y)
+        for (size_t k = 0; k < BLOCK; ++k)
+            to[k * pitch + y] = from[y * stride + k];
+    for (size_t k = 0; k < BLOCK; ++k)
+        memset(to + k * pitch + count, 0, (pitch - count) * sizeof *to);
+}
+
+static void
+scatter_block(const otx_fft *fft, const float *block, int32_t b, float *plane)
+{
+    const size_t stride = otx_fft_stride(fft) / 2;
+    const size_t pitch = fft->pitch;
+    const complex_float *from = (const complex_float *)block;
+    complex_float *to = (complex_float *)plane + (size_t)b * BLOCK;
+
+    for (size_t y = 0; y < (size_t)fft->height; ++y)
+        for (size_t k = 0; k < BLOCK; ++k)
+            to[y * stride + k] = from[k * pitch + y];
 }
 
 void
-otx_fft_forward(const otx_fft *fft, float scale, float *plane, float *spectrum)
+otx_fft_forward(
+    const otx_fft *fft, float scale, float *plane, float *scratch,
+    float *spectrum)
 {
-    const size_t block_floats = (size_t)fft->height * BLOCK_FLOATS;
     const size_t floats = otx_fft_spectrum_floats(fft);
 
+    /* The ends of columns, past the height, are multiplied too. */
+    memset(spectrum, 0, floats * sizeof *spectrum);
     transform_rows(fft, plane, fft->height);
     for (int32_t b = 0; b < fft->block_count; ++b)
-        transform_block(
-            fft, plane, fft->height, b, spectrum + (size_t)b * block_floats);
+    {
+        gather_block(fft, plane, fft->height, b, scratch);
+        fftwf_execute_dft(
+            fft->column_forward, (fftwf_complex *)scratch,
+            (fftwf_complex *)(spectrum + (size_t)b * block_floats(fft)));
+    }
     for (size_t i = 0; i < floats; ++i)
         spectrum[i] *= scale;
 }
 
-/* sum += conj(f) g, or sum = conj(f) g for the first. */
+/* sum += conj(f) g */
 static void
 add_product(
-    size_t floats, bool first, const float *restrict f, const float *restrict g,
+    size_t floats, const float *restrict f, const float *restrict g,
     float *restrict sum)
 {
-    if (first)
-        memset(sum, 0, floats * sizeof *sum);
     for (size_t i = 0; i < floats; i += 2)
     {
-        const float re = f[i] * g[i] + f[i + 1] * g[i + 1];
-        const float im = f[i] * g[i + 1] - f[i + 1] * g[i];
-
-        sum[i] += re;
-        sum[i + 1] += im;
+        sum[i] += f[i] * g[i] + f[i + 1] * g[i + 1];
+        sum[i + 1] += f[i] * g[i + 1] - f[i + 1] * g[i];
     }
 }
 
-/* Transforms the columns of `sum` back and scatters them to rows. */
+/* Each row goes through `buffer`: a transform from one place to another is a
+ * third faster than one in place, even with the copy. */
 static void
-restore_block(const otx_fft *fft, float *sum, int32_t b, float *out)
+restore_rows(const otx_fft *fft, float *buffer, float *plane)
 {
     const size_t stride = otx_fft_stride(fft);
-    float *to = out + (size_t)b * BLOCK_FLOATS;
 
-    fftwf_execute_dft(
-        fft->column_inverse, (fftwf_complex *)sum, (fftwf_complex *)sum);
-    for (size_t y = 0; y < (size_t)fft->height; ++y)
-        memcpy(
-            to + y * stride, sum + y * BLOCK_FLOATS,
-            BLOCK_FLOATS * sizeof *sum);
+    for (int32_t y = 0; y < fft->height; ++y)
+    {
+        float *row = plane + (size_t)y * stride;
+
+        memcpy(buffer, row, stride * sizeof *row);
+        fftwf_execute_dft_c2r(fft->row_inverse, (fftwf_complex *)buffer, row);
+    }
 }
 
 void
@@ -236,27 +269,30 @@ otx_fft_correlate(
     float *const planes[], const float *const spectra[], float *scratch,
     float *out)
 {
-    const size_t block_floats = (size_t)fft->height * BLOCK_FLOATS;
-    float *block = scratch;
-    float *sum = scratch + block_floats;
+    const size_t floats = block_floats(fft);
+    float *gathered = scratch;
+    float *transformed = gathered + floats;
+    float *sum = transformed + floats;
 
     for (int32_t p = 0; p < plane_count; ++p)
         transform_rows(fft, planes[p], row_count);
+    memset(transformed, 0, floats * sizeof *transformed);
     for (int32_t b = 0; b < fft->block_count; ++b)
     {
+        memset(sum, 0, floats * sizeof *sum);
         for (int32_t p = 0; p < plane_count; ++p)
         {
-            transform_block(fft, planes[p], row_count, b, block);
+            gather_block(fft, planes[p], row_count, b, gathered);
+            fftwf_execute_dft(
+                fft->column_forward, (fftwf_complex *)gathered,
+                (fftwf_complex *)transformed);
             add_product(
-                block_floats, p == 0, block,
-                spectra[p] + (size_t)b * block_floats, sum);
+                floats, transformed, spectra[p] + (size_t)b * floats, sum);
         }
-        restore_block(fft, sum, b, out);
+        fftwf_execute_dft(
+            fft->column_inverse, (fftwf_complex *)sum,
+            (fftwf_complex *)gathered);
+        scatter_block(fft, gathered, b, out);
     }
-    for (int32_t y = 0; y < fft->height; ++y)
-    {
-        float *row = out + (size_t)y * otx_fft_stride(fft);
-
-        fftwf_execute_dft_c2r(fft->row_inverse, (fftwf_complex *)row, row);
-    }
+    restore_rows(fft, sum + floats, out);
 }

@@ -35,8 +35,9 @@ size_t otx_fft_scratch_floats(const otx_fft *fft);
 
 /* Spectrum of `scale` times a plane of [height * stride], whose contents are
  * lost. All buffers here and below come from arenas (aligned to 64). */
-void
-otx_fft_forward(const otx_fft *fft, float scale, float *plane, float *spectrum);
+void otx_fft_forward(
+    const otx_fft *fft, float scale, float *plane, float *scratch,
+    float *spectrum);
 
 /* Sum of the correlations of `planes` with the pictures of `spectra`, times
  * width * height (FFTW's inverse is not normalised).

@@ -38,13 +38,14 @@ check_size(int32_t width, int32_t height, int32_t rows)
     const size_t count = (size_t)PLANES * (size_t)width * (size_t)height;
     float *f = OTX_ZNEW(run->arena, float, count);
     float *g = OTX_ZNEW(run->arena, float, count);
-    float *planes[PLANES], *spectra[PLANES];
+    float *planes[PLANES], *spectra[PLANES], *scratch;
     otx_fft *fft;
 
     assert_int_equal(
         otx_fft_create(run, run->arena, width, height, &fft), OSDTEX_OK);
     const size_t stride = otx_fft_stride(fft);
 
+    scratch = OTX_NEW(run->arena, float, otx_fft_scratch_floats(fft));
     for (size_t i = 0; i < count; ++i)
     {
         const int32_t y = (int32_t)(i / (size_t)width) % height;
@@ -67,9 +68,9 @@ check_size(int32_t width, int32_t height, int32_t rows)
                 if (y < rows)
                     planes[p][(size_t)y * stride + (size_t)x] = f[at];
             }
-        otx_fft_forward(fft, 1.0f / (float)(width * height), plane, spectra[p]);
+        otx_fft_forward(
+            fft, 1.0f / (float)(width * height), plane, scratch, spectra[p]);
     }
-    float *scratch = OTX_NEW(run->arena, float, otx_fft_scratch_floats(fft));
     float *out = OTX_NEW(run->arena, float, (size_t)height *stride);
 
     otx_fft_correlate(
