@@ -68,11 +68,15 @@ std::mutex quiet::s_mutex;
 void
 say(char *message, const char *text)
 {
-    const char *reason = std::strstr(text, "' failed. ");
+    static const char *const openings[] = {
+        "' failed. ", "Config failed validation. "};
     size_t used = 0;
     bool space = false;
 
-    for (const char *c = reason ? reason + 10 : text; *c; ++c)
+    for (const char *opening : openings)
+        if (const char *at = std::strstr(text, opening))
+            text = at + std::strlen(opening);
+    for (const char *c = text; *c; ++c)
     {
         if (std::isspace(static_cast<unsigned char>(*c)))
         {

@@ -6,6 +6,7 @@
  * ACES2065-1. */
 #include "image/colour_known.h"
 
+#include <ctype.h>
 #include <string.h>
 
 static const char stage[] = "colour";
@@ -66,6 +67,55 @@ resolve_chromaticities(
     return space;
 }
 
+/* Whether `name` stands in `path` between characters that are no letters or
+ * digits. */
+static bool
+is_word_of(const char *name, const char *path)
+{
+    const size_t length = strlen(name);
+
+    for (const char *at = strcasestr(path, name); at;
+         at = strcasestr(at + 1, name))
+        if ((at == path || !isalnum((unsigned char)at[-1])) &&
+            !isalnum((unsigned char)at[length]))
+            return true;
+    return false;
+}
+
+/* OpenColorIO's search for names of spaces in a path is content with part of a
+ * word, and finds Raw in "/drawings/brick.png". Only whole words count here. */
+static bool
+is_named_in_path(const otx_colour *colour, const char *space, const char *path)
+{
+    const char *name = NULL;
+
+    for (int32_t i = 0; (name = otx_ocio_name(colour->config, i)) != NULL; ++i)
+        if (name[0] && is_word_of(name, path) &&
+            strcmp(otx_ocio_find(colour->config, name), space) == 0)
+            return true;
+    return false;
+}
+
+static const char *
+resolve_file_rule(
+    otx_run *run, const otx_colour *colour, const otx_colour_source *source,
+    const char **rule)
+{
+    const char *space = NULL;
+
+    if (source->path)
+        space = otx_ocio_file_rule(colour->config, source->path, rule);
+    if (!space || strcmp(*rule, "ColorSpaceNamePathSearch") != 0 ||
+        is_named_in_path(colour, space, source->path))
+        return space;
+    otx_note(
+        run, OSDTEX_SEVERITY_INFO, stage, at_source(source),
+        "passing over the space '%s', whose name OpenColorIO sees in part of a "
+        "word of the path",
+        space);
+    return NULL;
+}
+
 static otx_status
 say_source(
     otx_run *run, const otx_colour_source *source, const char *space,
@@ -121,9 +171,7 @@ otx_colour_resolve(
     *space = resolve_chromaticities(run, colour, source);
     if (*space)
         return say_source(run, source, *space, "the file's chromaticities", "");
-    *space = source->path
-                 ? otx_ocio_file_rule(colour->config, source->path, &rule)
-                 : NULL;
+    *space = resolve_file_rule(run, colour, source, &rule);
     if (*space)
         return say_source(
             run, source, *space, "the configuration's file rule ", rule);

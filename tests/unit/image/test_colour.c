@@ -232,6 +232,30 @@ test_configurations(void **state)
     }
 }
 
+/* The demo configuration looks for names of spaces in paths. */
+static void
+test_names_in_paths_are_words(void **state)
+{
+    static const row rows[] = {
+        {{.path = "/drawings/a.png"}, "sRGB", "integer"},
+        {{.path = "/b/brick_raw.png"}, "Raw", "ColorSpaceNamePathSearch"},
+        {{.path = "/ACEScg/c.png"}, "ACEScg", "ColorSpaceNamePathSearch"},
+        {{.path = "/drawings/d_Raw.png"}, "Raw", "ColorSpaceNamePathSearch"},
+    };
+    otx_run *run = test_run_create();
+    otx_colour colour;
+    (void)state;
+
+    if (access(SHARED_DATA, R_OK) != 0)
+    {
+        test_run_destroy(run);
+        skip();
+    }
+    assert_int_equal(otx_colour_open(run, DEMO, NULL, &colour), OSDTEX_OK);
+    check_rows(run, &colour, rows, sizeof rows / sizeof rows[0]);
+    test_run_destroy(run);
+}
+
 static void
 test_match_space_is_checked(void **state)
 {
@@ -329,6 +353,7 @@ main(void)
         cmocka_unit_test(test_unknown_name_lists_near_ones),
         cmocka_unit_test(test_primaries_are_measured),
         cmocka_unit_test(test_configurations),
+        cmocka_unit_test(test_names_in_paths_are_words),
         cmocka_unit_test(test_match_space_is_checked),
         cmocka_unit_test(test_bad_configurations),
         cmocka_unit_test(test_missing_table),
