@@ -1,0 +1,148 @@
+/* test_text_out.c -- buffered output keeps order, and its first failure. */
+#include "support.h"
+
+#include "file/text_out.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+typedef struct fixture
+{
+    otx_run *run;
+    char path[32];
+} fixture;
+
+static int
+begin(void **state)
+{
+    fixture *f = calloc(1, sizeof *f);
+    int fd;
+
+    strcpy(f->path, "/tmp/osdtex-out-XXXXXX");
+    fd = mkstemp(f->path);
+    assert_true(fd >= 0);
+    close(fd);
+    f->run = test_run_create();
+    *state = f;
+    return 0;
+}
+
+static int
+end(void **state)
+{
+    fixture *f = *state;
+
+    unlink(f->path);
+    test_run_destroy(f->run);
+    free(f);
+    return 0;
+}
+
+static size_t
+read_back(const fixture *f, char *bytes, size_t capacity)
+{
+    FILE *file = fopen(f->path, "rb");
+    const size_t size = fread(bytes, 1, capacity, file);
+
+    fclose(file);
+    return size;
+}
+
+static void
+values_are_plain_text(void **state)
+{
+    fixture *f = *state;
+    char text[128];
+    otx_text_out *out;
+
+    assert_int_equal(
+        otx_text_out_open(f->run, "test", f->path, NULL, &out), OSDTEX_OK);
+    otx_text_out_string(out, "a ");
+    otx_text_out_int(out, -12);
+    otx_text_out_char(out, ' ');
+    otx_text_out_float(out, 0.1f);
+    otx_text_out_char(out, ' ');
+    otx_text_out_double(out, 0.1);
+    otx_text_out_char(out, ' ');
+    otx_text_out_name(out, "b c\nd", false);
+    otx_text_out_char(out, ' ');
+    otx_text_out_name(out, "b c\nd", true);
+    assert_int_equal(otx_text_out_close(f->run, out), OSDTEX_OK);
+    text[read_back(f, text, sizeof text - 1)] = '\0';
+    assert_string_equal(text, "a -12 0.1 0.1 b_c_d b c_d");
+}
+
+/* Small pieces and pieces larger than any buffer come out in order. */
+static void
+order_is_kept(void **state)
+{
+    enum
+    {
+        LARGE = 1 << 20,
+        SMALL = 1000
+    };
+    fixture *f = *state;
+    char *bytes = OTX_NEW(f->run->arena, char, LARGE + 2 * SMALL);
+    char *back = OTX_NEW(f->run->arena, char, LARGE + 3 * SMALL);
+    otx_text_out *out;
+
+    for (size_t i = 0; i < LARGE + 2 * SMALL; ++i)
+        bytes[i] = (char)(i * 31 % 251);
+    assert_int_equal(
+        otx_text_out_open(f->run, "test", f->path, NULL, &out), OSDTEX_OK);
+    otx_text_out_bytes(out, bytes, SMALL);
+    otx_text_out_bytes(out, bytes + SMALL, LARGE);
+    otx_text_out_bytes(out, bytes + SMALL + LARGE, SMALL);
+    assert_int_equal(otx_text_out_close(f->run, out), OSDTEX_OK);
+    assert_int_equal(read_back(f, back, LARGE + 3 * SMALL), LARGE + 2 * SMALL);
+    assert_memory_equal(bytes, back, LARGE + 2 * SMALL);
+}
+
+static void
+the_first_failure_is_told_once(void **state)
+{
+    fixture *f = *state;
+    otx_text_out *out;
+    osdtex_diagnostic d;
+
+    if (access("/dev/full", W_OK) != 0)
+        skip();
+    assert_int_equal(
+        otx_text_out_open(f->run, "test", "/dev/full", "out.obj", &out),
+        OSDTEX_OK);
+    for (int i = 0; i < 1000000; ++i)
+        otx_text_out_char(out, 'x');
+    assert_int_equal(otx_text_out_close(f->run, out), OSDTEX_ERROR_IO);
+    assert_int_equal(otx_diagnostics_count(f->run->diagnostics), 1);
+    otx_diagnostics_get(f->run->diagnostics, 0, &d);
+    assert_string_equal(d.file, "out.obj");
+    assert_non_null(strstr(d.message, "full"));
+}
+
+/* A stream that an error left open is closed with the scratch arena. */
+static void
+release_closes(void **state)
+{
+    fixture *f = *state;
+
+    for (int i = 0; i < 5000; ++i)
+    {
+        const otx_arena_mark mark = otx_arena_here(f->run->scratch);
+        otx_text_out *out;
+
+        assert_int_equal(
+            otx_text_out_open(f->run, "test", f->path, NULL, &out), OSDTEX_OK);
+        otx_arena_release(f->run->scratch, mark);
+    }
+}
+
+int
+main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
+    const struct CMUnitTest tests[] = {
+        TEST(values_are_plain_text), TEST(order_is_kept),
+        TEST(the_first_failure_is_told_once), TEST(release_closes)};
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
