@@ -86,8 +86,8 @@ mean_difference(
     return sum / count;
 }
 
-/* On the edge itself, and half as much on each side of it: colours may cross
- * by chance on a line, hardly on a band. */
+/* On the edge itself and, at half the samples, on each side of it: colours
+ * may agree by chance on a line, hardly on a band. */
 static double
 band_difference(
     const otx_cut_cost *cost, const otx_vec2 a[2], const otx_vec2 b[2],
@@ -98,8 +98,9 @@ band_difference(
 
     if (!(band > 0.0))
         return middle;
-    return 0.5 * middle + 0.25 * mean_difference(cost, a, b, band, count) +
-           0.25 * mean_difference(cost, a, b, -band, count);
+    return 0.5 * middle +
+           0.25 * mean_difference(cost, a, b, band, (count + 1) / 2) +
+           0.25 * mean_difference(cost, a, b, -band, (count + 1) / 2);
 }
 
 int64_t
