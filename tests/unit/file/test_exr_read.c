@@ -1,0 +1,426 @@
+/* test_exr_read.c -- EXR files as other programs write them. */
+#include "picture_support.h"
+
+/* Makes `name` in the folder with oiiotool from a noise picture, a.exr. */
+static void
+make(const test_folder *folder, const char *arguments)
+{
+    char command[5000];
+
+    snprintf(command, sizeof command, "oiiotool %s", arguments);
+    if (test_shell(folder, command) != 0)
+        fail_msg("%s", command);
+}
+
+/* Skips the test where there is no oiiotool. */
+static otx_run *
+begin(test_folder *folder, otx_image *image)
+{
+    otx_run *run;
+    otx_exr_options options = otx_exr_options_default();
+
+    if (!test_has_tool("oiiotool"))
+    {
+        print_message("oiiotool is not installed\n");
+        skip();
+    }
+    run = test_run_create();
+    *folder = test_folder_create();
+    *image = test_noise(run, 100, 70, 3);
+    options.tiled = false;
+    options.full_float = true;
+    assert_int_equal(
+        test_write_exr(run, test_path(folder, "a.exr"), image, &options),
+        OSDTEX_OK);
+    return run;
+}
+
+static void
+end(const test_folder *folder, otx_run *run)
+{
+    test_folder_remove(folder);
+    test_run_destroy(run);
+}
+
+static void
+test_every_layout_is_read(void **state)
+{
+    static const struct
+    {
+        const char *arguments;
+        double tolerance;
+    } cases[] = {
+        {"--compression none", 0.0},
+        {"--compression rle", 0.0},
+        {"--compression zips", 0.0},
+        {"--compression zip", 0.0},
+        {"--compression piz", 0.0},
+        {"--compression pxr24", 1e-4},
+        {"-d half --compression none", 1e-3},
+        {"-d half --compression piz", 1e-3},
+        {"-d half --compression pxr24", 1e-3},
+        {"-d half --compression b44", 0.2},
+        {"-d half --compression b44a", 0.2},
+        {"-d float --tile 32 16 --compression none", 0.0},
+        {"-d float --tile 32 16 --compression piz", 0.0},
+        {"-d float --tile 128 128 --compression zip", 0.0},
+        {"-d half --tile 64 64 --compression pxr24", 1e-3},
+    };
+    const size_t case_count = sizeof cases / sizeof *cases;
+    char arguments[4096] = "";
+    size_t used = 0;
+    test_folder folder;
+    otx_image image;
+    otx_run *run = begin(&folder, &image);
+
+    (void)state;
+    /* One process: starting it costs more than the work. */
+    for (size_t i = 0; i < case_count; ++i)
+        used += (size_t)snprintf(
+            arguments + used, sizeof arguments - used, " a.exr %s -o %zu.exr",
+            cases[i].arguments, i);
+    make(&folder, arguments);
+    for (size_t i = 0; i < case_count; ++i)
+    {
+        char name[32];
+        otx_picture picture;
+
+        snprintf(name, sizeof name, "%zu.exr", i);
+        picture = test_read(run, test_path(&folder, name));
+        test_same_image(&picture.image, &image, cases[i].tolerance);
+    }
+    end(&folder, run);
+}
+
+static void
+test_first_row_of_the_file_is_on_top(void **state)
+{
+    test_folder folder;
+    otx_image image;
+    otx_run *run = begin(&folder, &image);
+    otx_picture picture;
+
+    (void)state;
+    make(
+        &folder, "--create 4x2 3 --box:color=1,0.5,0.25:fill=1 0,0,0,0 "
+                 "-d half -o b.exr");
+    picture = test_read(run, test_path(&folder, "b.exr"));
+    assert_float_equal(otx_image_at(&picture.image, 0, 1)[0], 1.0, 0.0);
+    assert_float_equal(otx_image_at(&picture.image, 0, 1)[2], 0.25, 0.0);
+    assert_float_equal(otx_image_at(&picture.image, 0, 0)[0], 0.0, 0.0);
+    assert_float_equal(otx_image_at(&picture.image, 1, 1)[0], 0.0, 0.0);
+    end(&folder, run);
+}
+
+static void
+test_level_0_of_a_mip_map_is_read(void **state)
+{
+    test_folder folder;
+    otx_image image;
+    otx_run *run = begin(&folder, &image);
+    otx_picture picture;
+
+    (void)state;
+    make(&folder, "a.exr -d float -otex b.exr");
+    picture = test_read(run, test_path(&folder, "b.exr"));
+    test_same_image(&picture.image, &image, 0.0);
+    end(&folder, run);
+}
+
+static void
+test_layers_are_found_and_named(void **state)
+{
+    test_folder folder;
+    otx_image image;
+    otx_run *run = begin(&folder, &image);
+    otx_picture picture;
+
+    (void)state;
+    make(
+        &folder, "a.exr --chnames diffuse.R,diffuse.G,diffuse.B -d half "
+                 "a.exr --ch R --chnames Z --chappend -o b.exr");
+    picture = test_read(run, test_path(&folder, "b.exr"));
+    test_same_image(&picture.image, &image, 1e-3);
+    assert_string_equal(picture.layer, "diffuse");
+    assert_non_null(strstr(test_last_message(run), "diffuse"));
+    end(&folder, run);
+}
+
+static void
+test_luminance_becomes_gray(void **state)
+{
+    test_folder folder;
+    otx_image image;
+    otx_run *run = begin(&folder, &image);
+    otx_picture picture;
+
+    (void)state;
+    make(&folder, "a.exr --ch G --chnames Y -o b.exr");
+    picture = test_read(run, test_path(&folder, "b.exr"));
+    assert_true(picture.is_gray);
+    for (int32_t i = 0; i < 100 * 70 * 3; ++i)
+        assert_float_equal(
+            picture.image.pixels[i], image.pixels[i / 3 * 3 + 1], 0.0);
+    end(&folder, run);
+}
+
+static void
+test_alpha_is_kept(void **state)
+{
+    test_folder folder;
+    otx_image image;
+    otx_run *run = begin(&folder, &image);
+    otx_picture picture;
+
+    (void)state;
+    make(&folder, "a.exr --ch R,G,B,A=0.5 -o b.exr");
+    picture = test_read(run, test_path(&folder, "b.exr"));
+    assert_true(picture.has_alpha);
+    assert_true(picture.alpha_is_premultiplied);
+    assert_int_equal(picture.image.channels, 4);
+    assert_float_equal(picture.image.pixels[3], 0.5, 0.0);
+    assert_float_equal(picture.image.pixels[0], image.pixels[0], 0.0);
+    end(&folder, run);
+}
+
+static void
+test_first_part_with_color_is_used(void **state)
+{
+    test_folder folder;
+    otx_image image;
+    otx_run *run = begin(&folder, &image);
+    otx_picture picture;
+
+    (void)state;
+    make(
+        &folder, "a.exr --ch R --chnames Z a.exr --siappend a.exr --siappend "
+                 "-o b.exr");
+    picture = test_read(run, test_path(&folder, "b.exr"));
+    assert_int_equal(picture.part, 1);
+    test_same_image(&picture.image, &image, 0.0);
+    assert_non_null(strstr(test_last_message(run), "part 1"));
+    end(&folder, run);
+}
+
+static void
+test_uint_channels_are_numbers(void **state)
+{
+    test_folder folder;
+    otx_image image;
+    otx_run *run = begin(&folder, &image);
+    otx_picture picture;
+
+    (void)state;
+    make(&folder, "--create 5x3 3 --addc 1,0,1 -d uint32 -o b.exr");
+    picture = test_read(run, test_path(&folder, "b.exr"));
+    assert_int_equal(picture.bits, 32);
+    assert_float_equal(picture.image.pixels[0], 4294967295.0, 256.0);
+    assert_float_equal(picture.image.pixels[1], 0.0, 0.0);
+    end(&folder, run);
+}
+
+/* Display windows: crops of what is stored, and what is stored being less. */
+static void
+test_picture_is_what_is_stored_and_shown(void **state)
+{
+    test_folder folder;
+    otx_image image;
+    otx_run *run = begin(&folder, &image);
+    otx_picture picture;
+
+    (void)state;
+    make(&folder, "a.exr --fullsize 40x30+10+5 -o b.exr");
+    picture = test_read(run, test_path(&folder, "b.exr"));
+    assert_int_equal(picture.image.width, 40);
+    assert_int_equal(picture.image.height, 30);
+    for (int32_t y = 0; y < 30; ++y)
+        assert_memory_equal(
+            otx_picture_row(&picture, y),
+            otx_image_at(&image, 10, 70 - 1 - 5 - y), 40 * 3 * sizeof(float));
+
+    make(&folder, "a.exr --fullsize 300x300-20-20 -o c.exr");
+    picture = test_read(run, test_path(&folder, "c.exr"));
+    test_same_image(&picture.image, &image, 0.0);
+    assert_int_equal(picture.display_window.x_min, -20);
+    assert_int_equal(picture.data_window.x_max, 99);
+    assert_non_null(strstr(test_last_message(run), "(0, 0) to (99, 69)"));
+    end(&folder, run);
+}
+
+/* Findings of one file and kind fold, so each refusal has a name of its own. */
+static void
+refuse(
+    otx_run *run, const test_folder *folder, const char *name,
+    otx_status expected, const char *word)
+{
+    otx_picture picture;
+
+    assert_int_equal(
+        otx_picture_read(run, test_path(folder, name), &picture), expected);
+    if (!strstr(test_last_message(run), word))
+        fail_msg("no \"%s\" in: %s", word, test_last_message(run));
+}
+
+static void
+test_what_is_not_read_is_said(void **state)
+{
+    test_folder folder;
+    otx_image image;
+    otx_run *run = begin(&folder, &image);
+
+    (void)state;
+    make(&folder, "a.exr -d half --compression dwaa -o b.exr");
+    refuse(run, &folder, "b.exr", OSDTEX_ERROR_SUPPORT, "--compression zip");
+    make(&folder, "a.exr -d half --compression dwab -o c.exr");
+    refuse(run, &folder, "c.exr", OSDTEX_ERROR_SUPPORT, "DWAB");
+    make(&folder, "a.exr --ch R,G --chnames depth,mask.R -o d.exr");
+    refuse(run, &folder, "d.exr", OSDTEX_ERROR_SUPPORT, "depth, mask.R");
+    make(&folder, "a.exr --fullsize 10x10+500+500 -o e.exr");
+    refuse(run, &folder, "e.exr", OSDTEX_ERROR_FORMAT, "display window");
+    end(&folder, run);
+}
+
+/* Makes a header claim a size; the pixels are not there. */
+static void
+claim_size(
+    otx_run *run, const test_folder *folder, const char *name, int32_t width,
+    int32_t height)
+{
+    static const char attribute[] = "dataWindow\0box2i\0\x10\0\0";
+    const int32_t maxima[2] = {width - 1, height - 1};
+    size_t bytes;
+    uint8_t *data = test_read_bytes(run, test_path(folder, "a.exr"), &bytes);
+    uint8_t *at = memmem(data, bytes, attribute, sizeof attribute);
+
+    assert_non_null(at);
+    memcpy(at + sizeof attribute + 8, maxima, sizeof maxima);
+    test_write_bytes(test_path(folder, name), data, bytes);
+}
+
+static void
+test_sizes_are_limited_before_memory_is_taken(void **state)
+{
+    test_folder folder;
+    otx_image image;
+    otx_run *run = begin(&folder, &image);
+
+    (void)state;
+    make(&folder, "--create 33000x1 3 -d half -o b.exr");
+    refuse(run, &folder, "b.exr", OSDTEX_ERROR_LIMIT, "33000 x 1");
+    /* The core finds by itself that such a file would have to be longer. */
+    claim_size(run, &folder, "c.exr", 2000000000, 2000000000);
+    refuse(run, &folder, "c.exr", OSDTEX_ERROR_FORMAT, "damaged");
+    assert_true(otx_heap_peak(run->heap) < 100u << 20);
+    end(&folder, run);
+}
+
+/* Our writer refuses such values, so the bytes of an uncompressed file are
+ * patched: 42 becomes infinite, 43 not a number. */
+static void
+patch(uint8_t *data, size_t bytes)
+{
+    const float from[2] = {42.0f, 43.0f};
+    const float to[2] = {INFINITY, NAN};
+
+    for (size_t i = 0; i + sizeof(float) <= bytes; ++i)
+        for (int k = 0; k < 2; ++k)
+            if (memcmp(data + i, &from[k], sizeof(float)) == 0)
+                memcpy(data + i, &to[k], sizeof(float));
+}
+
+static void
+test_first_pixel_that_is_not_finite_is_named(void **state)
+{
+    test_folder folder;
+    otx_image image;
+    otx_run *run = begin(&folder, &image);
+    otx_exr_options options = otx_exr_options_default();
+    size_t bytes;
+    uint8_t *data;
+
+    (void)state;
+    options.full_float = true;
+    options.tiled = false;
+    otx_image_at(&image, 30, 70 - 1 - 20)[1] = 42.0f;
+    otx_image_at(&image, 2, 70 - 1 - 21)[0] = 43.0f;
+    assert_int_equal(
+        test_write_exr(run, test_path(&folder, "a.exr"), &image, &options),
+        OSDTEX_OK);
+    make(&folder, "a.exr --compression none -o b.exr");
+    data = test_read_bytes(run, test_path(&folder, "b.exr"), &bytes);
+    patch(data, bytes);
+    test_write_bytes(test_path(&folder, "b.exr"), data, bytes);
+    refuse(
+        run, &folder, "b.exr", OSDTEX_ERROR_NUMERIC,
+        "pixel (30, 20), counted from the top-left corner, is infinite in "
+        "channel G");
+    end(&folder, run);
+}
+
+static void
+test_non_finite_photograph(void **state)
+{
+    const char *path = SHARED_DATA "/textures/BrightRingsNanInf.exr";
+    otx_run *run;
+    otx_picture picture;
+
+    (void)state;
+    if (access(path, R_OK) != 0)
+    {
+        print_message("%s is absent\n", path);
+        skip();
+    }
+    run = test_run_create();
+    assert_int_equal(
+        otx_picture_read(run, path, &picture), OSDTEX_ERROR_NUMERIC);
+    assert_non_null(strstr(
+        test_last_message(run), "pixel (320, 320), counted from the top-left "
+                                "corner, is not a number in channel R"));
+    test_run_destroy(run);
+}
+
+static void
+test_cut_files_are_refused(void **state)
+{
+    otx_run *run = test_run_create();
+    const test_folder folder = test_folder_create();
+    const otx_image image = test_noise(run, 9, 20, 3);
+    otx_exr_options options = otx_exr_options_default();
+
+    (void)state;
+    for (int tiled = 0; tiled < 2; ++tiled)
+    {
+        options.tiled = tiled;
+        assert_int_equal(
+            test_write_exr(run, test_path(&folder, "a.exr"), &image, &options),
+            OSDTEX_OK);
+        /* Levels below 0 come last and are not read. */
+        test_prefixes_fail(
+            run, &folder, test_path(&folder, "a.exr"), tiled ? 1200 : 0);
+    }
+    test_folder_remove(&folder);
+    test_run_destroy(run);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_layout_is_read),
+        cmocka_unit_test(test_first_row_of_the_file_is_on_top),
+        cmocka_unit_test(test_level_0_of_a_mip_map_is_read),
+        cmocka_unit_test(test_layers_are_found_and_named),
+        cmocka_unit_test(test_luminance_becomes_gray),
+        cmocka_unit_test(test_alpha_is_kept),
+        cmocka_unit_test(test_first_part_with_color_is_used),
+        cmocka_unit_test(test_uint_channels_are_numbers),
+        cmocka_unit_test(test_picture_is_what_is_stored_and_shown),
+        cmocka_unit_test(test_what_is_not_read_is_said),
+        cmocka_unit_test(test_sizes_are_limited_before_memory_is_taken),
+        cmocka_unit_test(test_first_pixel_that_is_not_finite_is_named),
+        cmocka_unit_test(test_non_finite_photograph),
+        cmocka_unit_test(test_cut_files_are_refused),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
