@@ -59,23 +59,27 @@ paint_span(void *context, const otx_mask_span *span)
     double u = span->source.x / plane->pixel.x;
     double v = span->source.y / plane->pixel.y;
     double energy = 0.0, weights = 0.0;
+    float *planes[OTX_PLANE_SPECTRA];
 
+    for (int32_t c = 0; c <= channels; ++c)
+        planes[c] = p->buffers->planes[c] + row;
     for (int32_t n = 0; n < span->count; ++n)
     {
-        float color[OTX_PLANE_LANES];
         const double w = span->weight + n * span->weight_step;
         const float weight = w > 0.0 ? (float)w : 0.0f;
-        const size_t at = row + (size_t)x;
-
         const double su = otx_plane_wrap(u, plane->width, plane->wrap_x);
         const double sv = otx_plane_wrap(v, plane->height, plane->wrap_y);
+        float color[OTX_PLANE_LANES];
+        float square = 0.0f;
 
         otx_plane_sample(plane, su, sv, color);
         for (int32_t c = 0; c < channels; ++c)
-            p->buffers->planes[c][at] += weight * color[c];
-        p->buffers->planes[channels][at] += weight;
-        energy +=
-            (double)(weight * (color[0] * color[0] + color[1] * color[1] + color[2] * color[2] + color[3] * color[3]));
+        {
+            planes[c][x] += weight * color[c];
+            square += color[c] * color[c];
+        }
+        planes[channels][x] += weight;
+        energy += (double)(weight * square);
         weights += (double)weight;
         /* From the wrapped position, the next one rarely needs a floor. */
         u = (plane->wrap_x ? su : u) + step_x;

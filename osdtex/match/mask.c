@@ -15,6 +15,29 @@ is_sane(otx_vec2 p)
     return fabs(p.x) < LARGEST && fabs(p.y) < LARGEST;
 }
 
+/* libm's fmin, fmax and ceil are calls where the processor is not known to be
+ * recent; here they are a third of the time to draw small triangles. */
+static inline double
+least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double
+most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* The first pixel whose centre is at `x` or beyond. */
+static inline int32_t
+first_centre(double x)
+{
+    const int32_t i = (int32_t)(x - 0.5);
+
+    return i + (x - 0.5 > i);
+}
+
 bool
 otx_mask_is_valid(const otx_mask *mask)
 {
@@ -45,10 +68,10 @@ otx_mask_bounds(const otx_mask *mask, const otx_mask_frame *frame)
             const otx_vec2 p =
                 otx_mask_place(frame, mask->triangles[t].flat[c]);
 
-            box.low.x = fmin(box.low.x, p.x);
-            box.low.y = fmin(box.low.y, p.y);
-            box.high.x = fmax(box.high.x, p.x);
-            box.high.y = fmax(box.high.y, p.y);
+            box.low.x = least(box.low.x, p.x);
+            box.low.y = least(box.low.y, p.y);
+            box.high.x = most(box.high.x, p.x);
+            box.high.y = most(box.high.y, p.y);
         }
     return box;
 }
@@ -132,8 +155,8 @@ row_interval(const otx_vec2 p[3], double y, double *begin, double *end)
         if ((a.y <= y) != (b.y <= y))
             x[found++] = edge_crossing(a, b, y);
     }
-    *begin = fmin(x[0], x[1]);
-    *end = fmax(x[0], x[1]);
+    *begin = least(x[0], x[1]);
+    *end = most(x[0], x[1]);
     return found == 2;
 }
 
@@ -142,23 +165,23 @@ draw_triangle(
     const otx_mask_triangle *triangle, const otx_vec2 p[3], otx_mask_span *span,
     otx_mask_span_fn fn, void *context)
 {
-    const double low = fmin(p[0].y, fmin(p[1].y, p[2].y));
-    const double high = fmax(p[0].y, fmax(p[1].y, p[2].y));
-    const int32_t last = (int32_t)ceil(high - 0.5);
+    const double low = least(p[0].y, least(p[1].y, p[2].y));
+    const double high = most(p[0].y, most(p[1].y, p[2].y));
+    const int32_t last = first_centre(high);
     otx_mask_ramp ramp;
 
     if (!otx_mask_ramp_make(triangle, p, &ramp))
         return;
     span->source_step = ramp.dx;
     span->weight_step = ramp.weight_dx;
-    for (int32_t y = (int32_t)ceil(low - 0.5); y < last; ++y)
+    for (int32_t y = first_centre(low); y < last; ++y)
     {
         double begin, end;
 
         if (!row_interval(p, y + 0.5, &begin, &end))
             continue;
-        span->x = (int32_t)ceil(begin - 0.5);
-        span->count = (int32_t)ceil(end - 0.5) - span->x;
+        span->x = first_centre(begin);
+        span->count = first_centre(end) - span->x;
         if (span->count <= 0)
             continue;
         const otx_vec2 centre = {span->x + 0.5, y + 0.5};

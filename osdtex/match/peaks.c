@@ -38,38 +38,41 @@ otx_peaks_insert(otx_peaks *peaks, const otx_peak *peak)
     peaks->list[at] = *peak;
 }
 
-/* The neighbour's coordinate; false where there is none. */
-static bool
-step_axis(int32_t *at, int32_t step, int32_t begin, int32_t end, bool wrap)
+/* Coordinates of the neighbours along one axis, and its own; how many. */
+static int32_t
+list_neighbours(
+    int32_t at, int32_t begin, int32_t end, bool wrap,
+    int32_t list[2 * RADIUS + 1])
 {
     const int32_t period = end - begin;
+    int32_t count = 0;
 
-    *at += step;
-    if (wrap)
-        *at = begin + ((*at - begin) % period + period) % period;
-    return *at >= begin && *at < end;
+    for (int32_t i = at - RADIUS; i <= at + RADIUS; ++i)
+        if (i >= begin && i < end)
+            list[count++] = i;
+        else if (wrap)
+            list[count++] = begin + ((i - begin) % period + period) % period;
+    return count;
 }
 
 static bool
 is_minimum(const otx_peaks_map *map, int32_t x, int32_t y)
 {
     const float value = map->values[(size_t)y * map->stride + (size_t)x];
+    int32_t columns[2 * RADIUS + 1], rows[2 * RADIUS + 1];
+    const int32_t column_count =
+        list_neighbours(x, map->x_begin, map->x_end, map->wrap_x, columns);
+    const int32_t row_count =
+        list_neighbours(y, map->y_begin, map->y_end, map->wrap_y, rows);
 
-    for (int32_t dy = -RADIUS; dy <= RADIUS; ++dy)
+    for (int32_t j = 0; j < row_count; ++j)
     {
-        int32_t j = y;
+        const float *row = map->values + (size_t)rows[j] * map->stride;
 
-        if (!step_axis(&j, dy, map->y_begin, map->y_end, map->wrap_y))
-            continue;
-        for (int32_t dx = -RADIUS; dx <= RADIUS; ++dx)
+        for (int32_t i = 0; i < column_count; ++i)
         {
-            int32_t i = x;
-
-            if (!step_axis(&i, dx, map->x_begin, map->x_end, map->wrap_x))
-                continue;
-            const float other =
-                map->values[(size_t)j * map->stride + (size_t)i];
-            const bool first = j != y ? j < y : i < x;
+            const float other = row[columns[i]];
+            const bool first = rows[j] != y ? rows[j] < y : columns[i] < x;
 
             if (other < value || (other == value && first))
                 return false;
@@ -98,14 +101,24 @@ skip_above(const float *row, int32_t x, int32_t end, float limit)
     return x;
 }
 
+/* Map value up to which a pixel could enter the list. Rounded upwards: the
+ * insertion decides exactly. */
+static float
+entry_limit(const otx_peaks *peaks, double offset, double scale)
+{
+    if (peaks->count < peaks->capacity)
+        return INFINITY;
+    return nextafterf(
+        (float)((peaks->list[peaks->count - 1].value - offset) / scale),
+        INFINITY);
+}
+
 void
 otx_peaks_scan(
     const otx_peaks_map *map, int32_t angle, double offset, double scale,
     otx_peaks *peaks)
 {
-    /* Map value below which a pixel could enter the list. Rounded upwards:
-     * the insertion decides exactly. */
-    float limit = INFINITY;
+    float limit = entry_limit(peaks, offset, scale);
 
     for (int32_t y = map->y_begin; y < map->y_end; ++y)
     {
@@ -124,10 +137,7 @@ otx_peaks_scan(
                            .angle = angle,
                            .y = y,
                            .x = x});
-            if (peaks->count == peaks->capacity)
-                limit = nextafterf(
-                    (float)((peaks->list[peaks->count - 1].value - offset) / scale),
-                    INFINITY);
+            limit = entry_limit(peaks, offset, scale);
         }
     }
 }

@@ -40,7 +40,7 @@ typedef struct search
     int32_t level;
 
     _Atomic int32_t next_angle;
-    otx_peaks *angle_peaks; /* [angle_count] */
+    otx_peaks *lane_peaks; /* [lanes] */
     otx_refine_picks picks;
     candidate *candidates;
     int32_t candidate_count;
@@ -67,7 +67,9 @@ for_each(search *s, int64_t count, otx_pool_body body)
 /* --------------------------------------------------------------- coarse */
 
 /* One lane of the pool: takes angles until none is left, so that its buffers
- * are made once. What an angle yields does not depend on the lane. */
+ * are made once, and its best so far keep the next angle's list short. Peaks
+ * are totally ordered: the best of all lanes do not depend on who had which
+ * angle. */
 static otx_status
 search_lane(void *context, int64_t lane, otx_worker *worker)
 {
@@ -75,14 +77,13 @@ search_lane(void *context, int64_t lane, otx_worker *worker)
     otx_exhaust_buffers buffers;
     int32_t angle;
 
-    (void)lane;
     OTX_TRY(otx_exhaust_buffers_create(
         worker->scratch, &s->matcher->planes[s->level], &buffers));
     while ((angle = atomic_fetch_add(&s->next_angle, 1)) <
            s->query->angle_count)
         otx_exhaust_angle(
             s->matcher, s->level, s->mask, s->query, angle, &buffers,
-            &s->angle_peaks[angle]);
+            &s->lane_peaks[lane]);
     return OSDTEX_OK;
 }
 
@@ -111,21 +112,21 @@ search_coarsely(search *s)
     otx_peaks all = {.capacity = keep};
     int64_t lanes = s->pool ? otx_pool_threads(s->pool) : 1;
 
-    s->angle_peaks = OTX_NEW(s->scratch, otx_peaks, angle_count);
-    s->candidates = OTX_NEW(s->scratch, candidate, keep);
-    if (!s->angle_peaks || !s->candidates)
-        return OSDTEX_ERROR_MEMORY;
-    for (int32_t a = 0; a < angle_count; ++a)
-    {
-        s->angle_peaks[a].count = 0;
-        s->angle_peaks[a].capacity = keep;
-    }
     if (lanes > angle_count)
         lanes = angle_count;
+    s->lane_peaks = OTX_NEW(s->scratch, otx_peaks, lanes);
+    s->candidates = OTX_NEW(s->scratch, candidate, keep);
+    if (!s->lane_peaks || !s->candidates)
+        return OSDTEX_ERROR_MEMORY;
+    for (int64_t l = 0; l < lanes; ++l)
+    {
+        s->lane_peaks[l].count = 0;
+        s->lane_peaks[l].capacity = keep;
+    }
     OTX_TRY(for_each(s, lanes, search_lane));
-    for (int32_t a = 0; a < angle_count; ++a)
-        for (int32_t i = 0; i < s->angle_peaks[a].count; ++i)
-            otx_peaks_insert(&all, &s->angle_peaks[a].list[i]);
+    for (int64_t l = 0; l < lanes; ++l)
+        for (int32_t i = 0; i < s->lane_peaks[l].count; ++i)
+            otx_peaks_insert(&all, &s->lane_peaks[l].list[i]);
     for (int32_t i = 0; i < all.count; ++i)
     {
         candidate *c = &s->candidates[i];
