@@ -1,0 +1,553 @@
+/* measure.c -- sums and quantiles over faces and seams, in index order.
+ *
+ * Stretch is that of [Sander01], taken from one linear map per face: the least
+ * squares fit of the face's UVs to its corners, which for a triangle is the
+ * triangle's and for a quad does not depend on a choice of diagonal.
+ *
+ * [Sander01] Sander, Snyder, Gortler, Hoppe: Texture mapping progressive
+ * meshes. SIGGRAPH 2001. */
+#include "mapping/measure.h"
+
+#include "mapping/seam.h"
+#include "mapping/window.h"
+
+#include <stdlib.h>
+
+enum
+{
+    CELLS = 32,       /* of the exemplar's longer side, for coverage */
+    PIECES_MAX = 64,  /* of a triangle's side, for coverage */
+    CORNERS_MAX = 64, /* of a face; longer ones are measured by their first */
+};
+
+static const char stage[] = "measure";
+
+typedef struct weighted
+{
+    double value, weight;
+} weighted;
+
+/* Values to be averaged and ranked. */
+typedef struct series
+{
+    int32_t count;
+    weighted *items;
+} series;
+
+/* A face laid into its plane, and its UVs, both in scene units. */
+typedef struct laid_face
+{
+    int32_t size;
+    otx_vec2 p[CORNERS_MAX];
+    otx_vec2 q[CORNERS_MAX];
+} laid_face;
+
+typedef struct survey
+{
+    const otx_mapping *mapping;
+    const otx_exemplar *exemplar;
+    const otx_level *leaf;
+    double density;
+    series l2, ratio, log_area;
+    double cell; /* texels */
+    int32_t cells_x, cells_y;
+    double *usage;  /* [cells_x * cells_y], scene units squared */
+    laid_face face; /* the one at hand */
+} survey;
+
+static int
+compare_weighted(const void *a, const void *b)
+{
+    const weighted *p = a, *q = b;
+
+    if (p->value != q->value)
+        return p->value < q->value ? -1 : 1;
+    return (p->weight > q->weight) - (p->weight < q->weight);
+}
+
+static double
+series_mean(const series *s)
+{
+    double sum = 0.0, weight = 0.0;
+
+    for (int32_t i = 0; i < s->count; ++i)
+    {
+        sum += s->items[i].value * s->items[i].weight;
+        weight += s->items[i].weight;
+    }
+    return weight > 0.0 ? sum / weight : 0.0;
+}
+
+/* Least value that `share` of the weight does not exceed. Sorts. */
+static double
+series_quantile(series *s, double share)
+{
+    double total = 0.0, sum = 0.0;
+
+    if (s->count == 0)
+        return 0.0;
+    qsort(s->items, (size_t)s->count, sizeof *s->items, compare_weighted);
+    for (int32_t i = 0; i < s->count; ++i)
+        total += s->items[i].weight;
+    for (int32_t i = 0; i < s->count; ++i)
+    {
+        sum += s->items[i].weight;
+        if (sum >= share * total)
+            return s->items[i].value;
+    }
+    return s->items[s->count - 1].value;
+}
+
+static void
+series_add(series *s, double value, double weight)
+{
+    s->items[s->count++] = (weighted){value, weight};
+}
+
+static double
+polygon_area(const otx_vec2 *points, int32_t count)
+{
+    double area2 = 0.0;
+
+    for (int32_t k = 1; k + 1 < count; ++k)
+        area2 += otx_vec2_cross(
+            otx_vec2_sub(points[k], points[0]),
+            otx_vec2_sub(points[k + 1], points[0]));
+    return 0.5 * area2;
+}
+
+/* Unit vectors of the face's plane, e1 x e2 along the sum of its fan's cross
+ * products. False when the face has no area. */
+static bool
+face_plane(const survey *s, int32_t face, otx_vec3 *e1, otx_vec3 *e2)
+{
+    const float *points = s->mapping->surface->points;
+    const int32_t *verts = s->leaf->face_verts + s->leaf->face_first[face];
+    const int32_t size = otx_level_face_size(s->leaf, face);
+    const otx_vec3 origin = otx_vec3_load(points, verts[0]);
+    otx_vec3 normal = {0.0, 0.0, 0.0}, longest = {0.0, 0.0, 0.0};
+
+    for (int32_t k = 1; k < size; ++k)
+    {
+        const otx_vec3 a =
+            otx_vec3_sub(otx_vec3_load(points, verts[k]), origin);
+
+        if (otx_vec3_dot(a, a) > otx_vec3_dot(longest, longest))
+            longest = a;
+        if (k + 1 < size)
+            normal = otx_vec3_add(
+                normal,
+                otx_vec3_cross(
+                    a,
+                    otx_vec3_sub(otx_vec3_load(points, verts[k + 1]), origin)));
+    }
+    normal = otx_vec3_unit(normal);
+
+    const double along = otx_vec3_dot(longest, normal);
+
+    *e1 = otx_vec3_unit(otx_vec3_mix(1.0, longest, -along, normal));
+    *e2 = otx_vec3_cross(normal, *e1);
+    return otx_vec3_dot(*e2, *e2) > 0.5;
+}
+
+static void
+lay_face(const survey *s, int32_t face, laid_face *out)
+{
+    const int32_t first = s->leaf->face_first[face];
+    const int32_t *verts = s->leaf->face_verts + first;
+    const float *points = s->mapping->surface->points;
+    const int32_t size = otx_level_face_size(s->leaf, face);
+    otx_vec3 e1, e2;
+    const bool flat = face_plane(s, face, &e1, &e2);
+
+    out->size = size < CORNERS_MAX ? size : CORNERS_MAX;
+    for (int32_t k = 0; k < out->size; ++k)
+    {
+        const otx_vec3 d = otx_vec3_sub(
+            otx_vec3_load(points, verts[k]), otx_vec3_load(points, verts[0]));
+
+        out->p[k] = flat ? (otx_vec2){otx_vec3_dot(d, e1), otx_vec3_dot(d, e2)}
+                         : (otx_vec2){0.0, 0.0};
+        out->q[k] = otx_vec2_scale(
+            1.0 / s->density,
+            otx_seam_texel(s->mapping, s->exemplar, first + k));
+    }
+}
+
+/* Sums of products of two centred point sets: xx xy yx yy. */
+static void
+products(const otx_vec2 *a, const otx_vec2 *b, int32_t count, double sums[4])
+{
+    otx_vec2 ma = {0.0, 0.0}, mb = {0.0, 0.0};
+
+    for (int32_t k = 0; k < count; ++k)
+    {
+        ma = otx_vec2_add(ma, otx_vec2_scale(1.0 / count, a[k]));
+        mb = otx_vec2_add(mb, otx_vec2_scale(1.0 / count, b[k]));
+    }
+    sums[0] = sums[1] = sums[2] = sums[3] = 0.0;
+    for (int32_t k = 0; k < count; ++k)
+    {
+        const otx_vec2 p = otx_vec2_sub(a[k], ma), q = otx_vec2_sub(b[k], mb);
+
+        sums[0] += p.x * q.x;
+        sums[1] += p.x * q.y;
+        sums[2] += p.y * q.x;
+        sums[3] += p.y * q.y;
+    }
+}
+
+/* Singular values, first the larger, of the linear map that fits q to p.
+ * False when the face or its map has no area, or the map is reversed. */
+static bool
+singular_values(const laid_face *face, double *larger, double *smaller)
+{
+    double pp[4], qp[4];
+
+    products(face->p, face->p, face->size, pp);
+    products(face->q, face->p, face->size, qp);
+
+    const double det = pp[0] * pp[3] - pp[1] * pp[2];
+
+    if (!(det > 0.0))
+        return false;
+
+    const double a = (qp[0] * pp[3] - qp[1] * pp[2]) / det;
+    const double b = (qp[1] * pp[0] - qp[0] * pp[1]) / det;
+    const double c = (qp[2] * pp[3] - qp[3] * pp[2]) / det;
+    const double d = (qp[3] * pp[0] - qp[2] * pp[1]) / det;
+    /* Half the sum and half the difference of the singular values. */
+    const double sum = 0.5 * hypot(a + d, b - c);
+    const double difference = 0.5 * hypot(a - d, b + c);
+
+    *larger = sum + difference;
+    *smaller = sum - difference;
+    return *smaller > 0.0 && a * d - b * c > 0.0;
+}
+
+/* Whether a corner that is convex on the surface is reversed in UV. */
+static bool
+has_fold(const laid_face *face)
+{
+    for (int32_t k = 0; k < face->size; ++k)
+    {
+        const int32_t n = (k + 1) % face->size;
+        const int32_t m = (k + 2) % face->size;
+        const double surface = otx_vec2_cross(
+            otx_vec2_sub(face->p[n], face->p[k]),
+            otx_vec2_sub(face->p[m], face->p[n]));
+        const double uv = otx_vec2_cross(
+            otx_vec2_sub(face->q[n], face->q[k]),
+            otx_vec2_sub(face->q[m], face->q[n]));
+
+        if (surface > 0.0 && uv < 0.0)
+            return true;
+    }
+    return false;
+}
+
+/* Cell of a coordinate along one axis. */
+static int32_t
+cell_at(double texel, int32_t size, bool wrap, double cell, int32_t count)
+{
+    const double inside = wrap ? texel - size * floor(texel / size) : texel;
+    const double index = floor(inside / cell);
+
+    if (!(index > 0.0))
+        return 0;
+    return index < count - 1 ? (int32_t)index : count - 1;
+}
+
+static void
+use_point(survey *s, otx_vec2 texel, double area)
+{
+    const otx_exemplar *exemplar = s->exemplar;
+    const int32_t x = cell_at(
+        texel.x, exemplar->match.width, exemplar->wrap_x, s->cell, s->cells_x);
+    const int32_t y = cell_at(
+        texel.y, exemplar->match.height, exemplar->wrap_y, s->cell, s->cells_y);
+
+    s->usage[(size_t)y * (size_t)s->cells_x + (size_t)x] += area;
+}
+
+/* Spreads the area of a triangle over the cells that its UVs lie in, as
+ * points at the centroids of n * n equal pieces about half a cell wide. */
+static void
+use_triangle(survey *s, const otx_vec2 q[3], double area)
+{
+    const otx_vec2 u = otx_vec2_sub(q[1], q[0]), v = otx_vec2_sub(q[2], q[0]);
+    const double side = fmax(otx_vec2_length(u), otx_vec2_length(v));
+    const double wanted = ceil(2.0 * side / s->cell);
+    const int32_t n =
+        wanted < PIECES_MAX ? (wanted > 1.0 ? (int32_t)wanted : 1) : PIECES_MAX;
+    const double piece = area / ((double)n * n);
+
+    for (int32_t i = 0; i < n; ++i)
+        for (int32_t j = 0; i + j < n; ++j)
+            for (int32_t half = 1; half <= (i + j + 1 < n ? 2 : 1); ++half)
+                use_point(
+                    s,
+                    otx_vec2_add(
+                        q[0], otx_vec2_add(
+                                  otx_vec2_scale((i + half / 3.0) / n, u),
+                                  otx_vec2_scale((j + half / 3.0) / n, v))),
+                    piece);
+}
+
+static void
+use_face(survey *s, const laid_face *face)
+{
+    for (int32_t k = 1; k + 1 < face->size; ++k)
+    {
+        const otx_vec2 p[3] = {face->p[0], face->p[k], face->p[k + 1]};
+        const otx_vec2 q[3] = {
+            otx_vec2_scale(s->density, face->q[0]),
+            otx_vec2_scale(s->density, face->q[k]),
+            otx_vec2_scale(s->density, face->q[k + 1])};
+
+        use_triangle(s, q, fabs(polygon_area(p, 3)));
+    }
+}
+
+/* Texels by which a face leaves a picture that does not tile. */
+static double
+overhang(const survey *s, const laid_face *face)
+{
+    const otx_exemplar *exemplar = s->exemplar;
+    double most = 0.0;
+
+    for (int32_t k = 0; k < face->size; ++k)
+    {
+        const otx_vec2 t = otx_vec2_scale(s->density, face->q[k]);
+
+        if (!exemplar->wrap_x)
+            most = fmax(most, fmax(-t.x, t.x - exemplar->match.width));
+        if (!exemplar->wrap_y)
+            most = fmax(most, fmax(-t.y, t.y - exemplar->match.height));
+    }
+    return most;
+}
+
+static void
+survey_face(survey *s, int32_t index, otx_measure *out)
+{
+    laid_face *face = &s->face;
+    double larger, smaller;
+
+    lay_face(s, index, face);
+
+    const double area = polygon_area(face->p, face->size);
+    const double uv_area = polygon_area(face->q, face->size);
+    const double beyond = overhang(s, face);
+    const bool flipped = uv_area < 0.0 || (uv_area == 0.0 && area > 0.0);
+
+    out->area += area * s->density * s->density;
+    out->flips += flipped;
+    out->folds += !flipped && has_fold(face);
+    out->outside += beyond > OTX_SEAM_TOLERANCE;
+    out->outside_max = fmax(out->outside_max, beyond);
+    use_face(s, face);
+    if (flipped || !singular_values(face, &larger, &smaller))
+        return;
+    series_add(
+        &s->l2,
+        sqrt(0.5 * (1.0 / (larger * larger) + 1.0 / (smaller * smaller))),
+        area);
+    series_add(&s->ratio, larger / smaller, area);
+    series_add(&s->log_area, fabs(log(larger * smaller)), area);
+}
+
+/* exp of the entropy of how the surface uses the cells: 1 all alike. */
+static double
+coverage(const survey *s)
+{
+    const size_t count = (size_t)s->cells_x * (size_t)s->cells_y;
+    double total = 0.0, entropy = 0.0;
+
+    for (size_t i = 0; i < count; ++i)
+        total += s->usage[i];
+    for (size_t i = 0; i < count; ++i)
+        if (s->usage[i] > 0.0)
+            entropy -= s->usage[i] / total * log(s->usage[i] / total);
+    return total > 0.0 ? exp(entropy) / (double)count : 0.0;
+}
+
+static bool
+allocate_survey(otx_run *run, survey *s)
+{
+    const double width = s->exemplar->match.width;
+    const double height = s->exemplar->match.height;
+    series *all[] = {&s->l2, &s->ratio, &s->log_area};
+
+    s->cell = fmax(width, height) / CELLS;
+    s->cells_x = (int32_t)ceil(width / s->cell);
+    s->cells_y = (int32_t)ceil(height / s->cell);
+    s->usage = OTX_ZNEW(run->scratch, double, s->cells_x *(int64_t)s->cells_y);
+    if (!s->usage)
+        return false;
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
+    {
+        all[i]->items = OTX_NEW(run->scratch, weighted, s->leaf->face_count);
+        if (!all[i]->items)
+            return false;
+    }
+    return true;
+}
+
+static otx_status
+measure_faces(otx_run *run, survey *s, otx_measure *out)
+{
+    const otx_mapping *mapping = s->mapping;
+    uint8_t *used = OTX_ZNEW(run->scratch, uint8_t, mapping->patch_count);
+
+    if (!used || !allocate_survey(run, s))
+        return otx_fail_memory(run, stage);
+    for (int32_t f = 0; f < s->leaf->face_count; ++f)
+    {
+        const int32_t patch = mapping->face_patch[f];
+
+        if (s->leaf->face_hole[f])
+            continue;
+        if (!otx_seam_covered(mapping, f))
+        {
+            ++out->uncovered;
+            continue;
+        }
+        if (patch < mapping->patch_count && !used[patch])
+        {
+            used[patch] = 1;
+            ++out->patches;
+        }
+        survey_face(s, f, out);
+    }
+    out->log_area_mean = series_mean(&s->log_area);
+    out->stretch_l2_mean = series_mean(&s->l2);
+    out->stretch_l2_p95 = series_quantile(&s->l2, 0.95);
+    out->stretch_ratio_mean = series_mean(&s->ratio);
+    out->stretch_ratio_p95 = series_quantile(&s->ratio, 0.95);
+    out->coverage = coverage(s);
+    return OSDTEX_OK;
+}
+
+static void
+sum_seams(const otx_seam_list *list, otx_measure *out)
+{
+    double energy = 0.0, visible = 0.0;
+
+    for (int32_t i = 0; i < list->edge_count; ++i)
+    {
+        const int32_t first = list->sample_first[i];
+        const int32_t end = list->sample_first[i + 1];
+        double sum = 0.0;
+
+        for (int32_t k = first; k < end; ++k)
+            sum += list->samples[k];
+        sum /= end - first;
+        energy += list->lengths[i] * sum;
+        visible += sum > out->lab_step ? list->lengths[i] : 0.0;
+    }
+    out->seam_length = list->total_length;
+    if (out->area > 0.0)
+    {
+        out->seam_energy = energy / out->area;
+        /* Lines of length L per area A are met 2 L / (pi A) times by a straight
+         * line of unit length [Buffon]. */
+        out->seams_per_100 =
+            100.0 * 2.0 / OTX_PI * list->total_length / out->area;
+    }
+    if (list->total_length > 0.0)
+        out->seam_visible_share = visible / list->total_length;
+    if (list->interior_length > 0.0)
+        out->seam_share = list->total_length / list->interior_length;
+}
+
+static double
+ratio_or_zero(double value, double unit)
+{
+    return unit > 0.0 ? value / unit : 0.0;
+}
+
+static otx_status
+measure_seams(otx_run *run, const otx_seam_list *list, otx_measure *out)
+{
+    const int32_t count = list->sample_first[list->edge_count];
+    series s = {.items = OTX_NEW(run->scratch, weighted, count)};
+    double squares = 0.0;
+
+    if (!s.items)
+        return otx_fail_memory(run, stage);
+    for (int32_t i = 0; i < count; ++i)
+    {
+        squares += (double)list->samples[i] * list->samples[i];
+        series_add(&s, list->samples[i], 1.0);
+    }
+    sum_seams(list, out);
+    out->seam_rms = count > 0 ? sqrt(squares / count) : 0.0;
+    out->seam_p50 = series_quantile(&s, 0.5);
+    out->seam_p95 = series_quantile(&s, 0.95);
+    out->seam_rms_sigma = ratio_or_zero(out->seam_rms, out->lab_sigma);
+    out->seam_rms_step = ratio_or_zero(out->seam_rms, out->lab_step);
+    out->seam_p95_sigma = ratio_or_zero(out->seam_p95, out->lab_sigma);
+    return OSDTEX_OK;
+}
+
+static otx_status
+measure_windows(
+    otx_run *run, survey *s, const otx_seam_list *seams, int32_t count,
+    otx_measure *out)
+{
+    otx_window_figures figures;
+
+    OTX_TRY(otx_window_measure(
+        run, s->mapping, s->exemplar, seams, count, &figures));
+    out->windows = figures.seam_count;
+    out->window_seam_p50 = figures.seam_p50;
+    out->window_seam_p90 = figures.seam_p90;
+    out->window_interior_p50 = figures.interior_p50;
+    out->window_interior_p90 = figures.interior_p90;
+    return OSDTEX_OK;
+}
+
+static otx_status
+measure_all(
+    otx_run *run, survey *s, const otx_measure_options *options,
+    otx_measure *out)
+{
+    otx_seam_list seams;
+
+    OTX_TRY(measure_faces(run, s, out));
+    OTX_TRY(otx_progress(run, stage, 0.2));
+    OTX_TRY(otx_seam_collect(run, s->mapping, s->exemplar, &seams));
+    OTX_TRY(measure_seams(run, &seams, out));
+    OTX_TRY(otx_progress(run, stage, 0.5));
+    if (options->window_count > 0)
+        OTX_TRY(measure_windows(run, s, &seams, options->window_count, out));
+    return otx_progress(run, stage, 1.0);
+}
+
+otx_status
+otx_measure_run(
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    const otx_measure_options *options, otx_measure *out)
+{
+    const otx_measure_options defaults = otx_measure_options_default();
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    survey s = {
+        .mapping = mapping,
+        .exemplar = exemplar,
+        .leaf = otx_surface_leaf(mapping->surface),
+        .density = otx_seam_density(mapping, exemplar),
+    };
+
+    *out = (otx_measure){
+        .density = s.density,
+        .lab_sigma = exemplar->lab_sigma,
+        .lab_step = exemplar->lab_step,
+    };
+
+    const otx_status status =
+        measure_all(run, &s, options ? options : &defaults, out);
+
+    otx_arena_release(run->scratch, mark);
+    return status;
+}
