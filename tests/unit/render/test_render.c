@@ -112,7 +112,7 @@ minified_checker_is_its_mean(void **state)
     otx_run *run = test_run_create();
     const otx_scene_texture texture = texture_of(run, 256, true);
     const otx_camera camera = facing_camera(5.0);
-    otx_render_options options = facing_options(&camera, 16);
+    otx_render_options options = facing_options(&camera, 17);
     const otx_scene scene = scene_quad(&texture);
 
     (void)state;
@@ -121,13 +121,13 @@ minified_checker_is_its_mean(void **state)
             paint(
                 &texture.image, x, y, (float)((x + y) % 2), 0.25f,
                 (float)(x % 2));
-    /* One sample to 16 x 16 texels would alias without filtering. */
+    /* One sample to 15.06 texels a side would alias without filtering. */
     options.samples = 1;
 
     const otx_image image = render(run, &scene, &options);
 
-    for (int32_t y = 0; y < 16; ++y)
-        for (int32_t x = 0; x < 16; ++x)
+    for (int32_t y = 0; y < 17; ++y)
+        for (int32_t x = 0; x < 17; ++x)
         {
             const float *pixel = otx_image_at(&image, x, y);
 
@@ -135,6 +135,34 @@ minified_checker_is_its_mean(void **state)
             assert_true(fabsf(pixel[1] - 0.25f) < 1e-4f);
             assert_true(fabsf(pixel[2] - 0.5f) < 1e-4f);
         }
+    test_run_destroy(run);
+}
+
+/* Stripes as wide as a pixel. Samples that were each filtered over the whole
+ * pixel would blur them twice, to 0.75. */
+static void
+samples_share_the_pixel(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_scene_texture texture = texture_of(run, 64, true);
+    const otx_camera camera = facing_camera(5.0);
+    otx_render_options options = facing_options(&camera, 32);
+    const otx_scene scene = scene_quad(&texture);
+
+    (void)state;
+    for (int32_t i = 0; i < 64 * 64; ++i)
+        paint(
+            &texture.image, i % 64, i / 64, (float)(i % 64 / 2 % 2), 0.0f,
+            0.0f);
+
+    const otx_image image = render(run, &scene, &options);
+
+    for (int32_t x = 0; x < 32; ++x)
+    {
+        const float red = otx_image_at(&image, x, 16)[0];
+
+        assert_true(fabsf(red - (x % 2 ? 0.875f : 0.125f)) < 0.04f);
+    }
     test_run_destroy(run);
 }
 
@@ -522,6 +550,7 @@ main(void)
         cmocka_unit_test(every_view_frames_the_model),
         cmocka_unit_test(magnified_texels_are_bilinear),
         cmocka_unit_test(minified_checker_is_its_mean),
+        cmocka_unit_test(samples_share_the_pixel),
         cmocka_unit_test(the_top_row_of_the_picture_is_up),
         cmocka_unit_test(colour_is_associated_with_alpha),
         cmocka_unit_test(faces_of_any_size_are_drawn),
