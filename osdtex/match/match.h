@@ -20,8 +20,8 @@ typedef struct otx_mask_triangle
     float weight[3];    /* >= 0; all 1 is the plain J of eq. 2 */
 } otx_mask_triangle;
 
-/* Triangles should not overlap; where they do, the last one counts. Edges
- * shared with bit-equal corners leave no gap. */
+/* Where triangles overlap, each counts. Edges shared with bit-equal corners
+ * leave no gap. */
 typedef struct otx_mask
 {
     const otx_mask_triangle *triangles;
@@ -110,9 +110,9 @@ otx_status otx_matcher_create(
  *   count  how many were found: 0 when nothing fits inside an exemplar that
  *          does not tile, or when the mask holds no texel
  *
- * A mask larger than a tiling exemplar is cut to one period around its middle,
- * so that no texel counts twice. ARGUMENT for an empty mask, numbers that are
- * not finite, a query without angles; MEMORY. */
+ * A mask larger than a tiling exemplar is compared with the repeated exemplar.
+ * ARGUMENT for an empty mask, one of more than four exemplars, numbers that
+ * are not finite, a query without angles; MEMORY. */
 otx_status otx_matcher_search(
     otx_run *run, const otx_matcher *matcher, const otx_mask *mask,
     const otx_match_query *query, otx_match *best, int32_t capacity,
