@@ -55,7 +55,7 @@ choose_rules(
     otx_run *run, const otx_cage_input *in, const otx_cage_options *options,
     otx_cage *cage)
 {
-    int32_t boundary, fvar, chaikin, smooth;
+    int32_t boundary = 0, fvar = 0, chaikin = 0, smooth = 0;
 
     OTX_TRY(choose(
         run, in,
