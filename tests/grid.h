@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "image/exemplar.h"
+#include "mapping/mapping.h"
 #include "surface/surface.h"
 
 /* nx * ny squares of side `step` in the plane z = 0, face (x, y) at
@@ -98,6 +99,32 @@ test_exemplar_create(
     exemplar->match_sigma = exemplar->lab_sigma = 100.0 / sqrt(2.0);
     exemplar->match_step = exemplar->lab_step = 100.0 / sqrt(2.0);
     return exemplar;
+}
+
+/* One patch that lays the grid flat: UV = points * density + shift texels. */
+static inline otx_mapping *
+test_mapping_create(
+    otx_arena *arena, const otx_surface *surface, const otx_exemplar *exemplar,
+    double density, double shift)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+    otx_mapping *mapping = OTX_ZNEW(arena, otx_mapping, 1);
+
+    mapping->surface = surface;
+    mapping->scale = exemplar->match.width / density;
+    mapping->uvs = OTX_NEW(arena, float, 2 * leaf->corner_count);
+    mapping->face_patch = OTX_ZNEW(arena, int32_t, leaf->face_count);
+    mapping->patch_count = 1;
+    for (int32_t c = 0; c < leaf->corner_count; ++c)
+    {
+        const otx_vec3 p = otx_vec3_load(surface->points, leaf->face_verts[c]);
+
+        mapping->uvs[2 * c] =
+            (float)((density * p.x + shift) / exemplar->match.width);
+        mapping->uvs[2 * c + 1] =
+            (float)((density * p.y + shift) / exemplar->match.height);
+    }
+    return mapping;
 }
 
 #endif
