@@ -1,0 +1,97 @@
+/* command.c -- the table of sub-commands. */
+#include "cli/command.h"
+
+#include <string.h>
+
+static const otx_flag_id map_flags[] = {
+    OTX_FLAG_OUTPUT,      OTX_FLAG_METHOD,       OTX_FLAG_SCALE,
+    OTX_FLAG_LEVEL,       OTX_FLAG_SEED,         OTX_FLAG_SET,
+    OTX_FLAG_FIRST_PATCH, OTX_FLAG_PREVIEW,      OTX_FLAG_JSON_REPORT,
+    OTX_FLAG_SCHEME,      OTX_FLAG_BOUNDARY,     OTX_FLAG_FVAR,
+    OTX_FLAG_FROM,        OTX_FLAG_TO,           OTX_FLAG_MATCH_SPACE,
+    OTX_FLAG_MATCH_IN,    OTX_FLAG_WRAP,         OTX_FLAG_COLORCONFIG,
+    OTX_FLAG_THREADS,     OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_DRY_RUN,
+    OTX_FLAG_UPDATE,      OTX_FLAG_VERBOSE,      OTX_FLAG_QUIET,
+    OTX_FLAG_HELP,        OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
+
+static const otx_flag_id render_flags[] = {
+    OTX_FLAG_OUTPUT,       OTX_FLAG_CAMERA,      OTX_FLAG_TURN,
+    OTX_FLAG_SIZE,         OTX_FLAG_SAMPLES,     OTX_FLAG_SHOW,
+    OTX_FLAG_UNLIT,        OTX_FLAG_COLORCONFIG, OTX_FLAG_THREADS,
+    OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_DRY_RUN,     OTX_FLAG_VERBOSE,
+    OTX_FLAG_QUIET,        OTX_FLAG_HELP,        OTX_FLAG_VERSION,
+    OTX_FLAG_COUNT};
+
+static const otx_flag_id info_flags[] = {
+    OTX_FLAG_SCHEME,      OTX_FLAG_BOUNDARY, OTX_FLAG_FVAR,
+    OTX_FLAG_FROM,        OTX_FLAG_TO,       OTX_FLAG_MATCH_SPACE,
+    OTX_FLAG_COLORCONFIG, OTX_FLAG_THREADS,  OTX_FLAG_MEMORY_LIMIT,
+    OTX_FLAG_VERBOSE,     OTX_FLAG_QUIET,    OTX_FLAG_HELP,
+    OTX_FLAG_VERSION,     OTX_FLAG_COUNT};
+
+static const otx_flag_id methods_flags[] = {
+    OTX_FLAG_HELP, OTX_FLAG_VERSION, OTX_FLAG_COUNT};
+
+static const otx_flag_id help_flags[] = {
+    OTX_FLAG_MAN, OTX_FLAG_COMPLETION, OTX_FLAG_HELP, OTX_FLAG_VERSION,
+    OTX_FLAG_COUNT};
+
+static const otx_command commands[] = {
+    {"map", "CAGE.obj EXEMPLAR", 2, 2,
+     "texture a subdivision cage from a picture of a material",
+     "Subdivides the cage, covers its limit surface with pieces of the "
+     "exemplar so\nthat seams do not show, and writes the refined mesh with "
+     "UVs "
+     "into the exemplar\n(NAME.obj), its material (NAME.mtl) and the exemplar "
+     "as a texture (NAME.exr).\nThe exemplar is an EXR, PNG, TIFF or JPEG; it "
+     "need not tile.",
+     "osdtex map models/cages/creature.obj models/exemplars/pebbles_tile.png "
+     "\\\n    -o pebbles.obj --preview pebbles.png\n"
+     "osdtex map shirt.obj weave.exr -o out/shirt.obj --scale 12 --level 3 \\\n"
+     "    --json-report out/shirt.json\n",
+     map_flags, otx_map_command_run},
+    {"render", "MODEL.obj", 1, 1, "take a picture of a textured model",
+     "Ray-traces an OBJ with the textures that its MTL names. PNG is for the "
+     "eye\n(sRGB), EXR is scene-linear.",
+     "osdtex render pebbles.obj -o pebbles.png --camera front --size 800x800\n"
+     "osdtex render pebbles.obj -o patches.png --show patches --unlit\n",
+     render_flags, otx_render_command_run},
+    {"info", "FILE", 1, 1, "say what a cage or a picture is",
+     "Of an OBJ: faces, tags, components, boundary, size. Of a picture: size, "
+     "type,\ncolour space as it would be resolved, whether it tiles.",
+     "osdtex info models/cages/creature.obj\n"
+     "osdtex info models/exemplars/pebbles_tile.png\n",
+     info_flags, otx_info_command_run},
+    {"methods", "[NAME]", 0, 1, "list the methods, or the settings of one",
+     "Settings are given to `osdtex map` with --set KEY=VALUE.",
+     "osdtex methods\n"
+     "osdtex methods hierarchical\n",
+     methods_flags, otx_methods_command_run},
+    {"help", "[COMMAND]", 0, 1, "print help on a command", "",
+     "osdtex help map\n", help_flags, otx_help_command_run},
+};
+
+const otx_command *
+otx_command_at(int index)
+{
+    const int count = (int)(sizeof commands / sizeof commands[0]);
+
+    return index < count ? &commands[index] : NULL;
+}
+
+const char *
+otx_command_name(int index)
+{
+    const otx_command *command = otx_command_at(index);
+
+    return command ? command->name : NULL;
+}
+
+const otx_command *
+otx_command_find(const char *name)
+{
+    for (int i = 0; otx_command_at(i); ++i)
+        if (strcmp(otx_command_at(i)->name, name) == 0)
+            return otx_command_at(i);
+    return NULL;
+}

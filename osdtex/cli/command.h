@@ -1,0 +1,44 @@
+/* command.h -- the sub-commands, in one table.
+ *
+ * A sub-command is one row: what it is called, what it takes, two examples, a
+ * function. Everything that is printed about it comes from the row. */
+#ifndef OTX_CLI_COMMAND_H
+#define OTX_CLI_COMMAND_H
+
+#include "cli/flag.h"
+
+/* Exit codes. */
+enum
+{
+    OTX_EXIT_OK = 0,
+    OTX_EXIT_USAGE = 1,
+    OTX_EXIT_DATA = 2,
+    OTX_EXIT_IO = 3,
+    OTX_EXIT_COLOUR = 4,
+    OTX_EXIT_LIMIT = 5 /* or internal */
+};
+
+typedef struct otx_command
+{
+    const char *name;
+    const char *operands; /* "CAGE.obj EXEMPLAR" */
+    int operands_min, operands_max;
+    const char *summary;      /* one line */
+    const char *description;  /* paragraphs, wrapped at 78 columns */
+    const char *examples;     /* lines */
+    const otx_flag_id *flags; /* ends with OTX_FLAG_COUNT */
+    int (*run)(const otx_flag_values *values);
+} otx_command;
+
+/* NULL behind the end. */
+const otx_command *otx_command_at(int index);
+const otx_command *otx_command_find(const char *name);
+const char *otx_command_name(int index);
+
+int otx_map_command_run(const otx_flag_values *values);
+int otx_render_command_run(const otx_flag_values *values);
+int otx_info_command_run(const otx_flag_values *values);
+int otx_methods_command_run(const otx_flag_values *values);
+int otx_help_command_run(const otx_flag_values *values);
+
+#endif

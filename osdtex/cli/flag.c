@@ -1,0 +1,296 @@
+/* flag.c -- the table of flags, and getopt_long over it. */
+#include "cli/flag.h"
+#include "cli/suggest.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <string.h>
+
+static const otx_flag flags[OTX_FLAG_COUNT] = {
+    [OTX_FLAG_OUTPUT] =
+        {"output", 'o', OTX_FLAG_GROUP_MAIN, "FILE",
+         "what to write; map: DIR/NAME.obj, with NAME.mtl and NAME.exr beside "
+         "it; render: a .png or .exr"},
+    [OTX_FLAG_METHOD] =
+        {"method", 0, OTX_FLAG_GROUP_MAIN, "NAME",
+         "how to texture; `osdtex methods` lists them (default: the first)"},
+    [OTX_FLAG_SCALE] =
+        {"scale", 0, OTX_FLAG_GROUP_MAIN, "S",
+         "width of the exemplar on the surface, in scene units (default: a "
+         "fifth of the diagonal of the cage's bounding box)"},
+    [OTX_FLAG_LEVEL] =
+        {"level", 0, OTX_FLAG_GROUP_MAIN, "N|auto",
+         "times the cage is subdivided, 0 to 10 (default auto: leaf edges of "
+         "about ten texels)"},
+    [OTX_FLAG_SEED] =
+        {"seed", 0, OTX_FLAG_GROUP_MAIN, "N",
+         "another number, another result (default 1)"},
+    [OTX_FLAG_SET] =
+        {"set", 0, OTX_FLAG_GROUP_MAIN, "KEY=VALUE",
+         "a setting of the method, as often as needed; `osdtex methods NAME` "
+         "lists them"},
+    [OTX_FLAG_FIRST_PATCH] =
+        {"first-patch", 0, OTX_FLAG_GROUP_MAIN, "FACE,U,V,ANGLE",
+         "begin at this face of the cage (0-based), its middle at U,V of the "
+         "exemplar, turned by ANGLE degrees"},
+    [OTX_FLAG_PREVIEW] =
+        {"preview", 0, OTX_FLAG_GROUP_MAIN, "FILE",
+         "also render the result to a .png or .exr"},
+    [OTX_FLAG_JSON_REPORT] =
+        {"json-report", 0, OTX_FLAG_GROUP_MAIN, "FILE",
+         "also write what was done, decided and measured"},
+    [OTX_FLAG_SCHEME] =
+        {"scheme", 0, OTX_FLAG_GROUP_CAGE, "catmark|loop|bilinear",
+         "subdivision scheme (default catmark)"},
+    [OTX_FLAG_BOUNDARY] =
+        {"boundary", 0, OTX_FLAG_GROUP_CAGE, "none|edgeOnly|edgeAndCorner",
+         "how the rim is subdivided (default: the file's tag, else "
+         "edgeAndCorner)"},
+    [OTX_FLAG_FVAR] =
+        {"fvar", 0, OTX_FLAG_GROUP_CAGE,
+         "none|cornersOnly|cornersPlus1|cornersPlus2|boundaries|all",
+         "how the cage's own UVs are smoothed (default: the file's tag, else "
+         "cornersPlus1)"},
+    [OTX_FLAG_FROM] =
+        {"from", 0, OTX_FLAG_GROUP_COLOUR, "SPACE",
+         "colour space of the exemplar (default: what the file says, else "
+         "sRGB for integers and scene_linear for floats)"},
+    [OTX_FLAG_TO] =
+        {"to", 0, OTX_FLAG_GROUP_COLOUR, "SPACE",
+         "colour space of NAME.exr (default: role scene_linear)"},
+    [OTX_FLAG_MATCH_SPACE] =
+        {"match-space", 0, OTX_FLAG_GROUP_COLOUR, "SPACE",
+         "display-like space in which colours are compared (default: role "
+         "color_picking, else sRGB)"},
+    [OTX_FLAG_MATCH_IN] =
+        {"match-in", 0, OTX_FLAG_GROUP_COLOUR, "hsv|hsv-cylinder|lab|rgb",
+         "coordinates in which distances are taken (default hsv: the cone)"},
+    [OTX_FLAG_WRAP] =
+        {"wrap", 0, OTX_FLAG_GROUP_COLOUR, "auto|no|yes",
+         "whether the exemplar tiles (default auto: tested, for each axis)"},
+    [OTX_FLAG_COLORCONFIG] =
+        {"colorconfig", 0, OTX_FLAG_GROUP_COLOUR, "FILE",
+         "OpenColorIO configuration (default: $OCIO, else a built-in one)"},
+    [OTX_FLAG_CAMERA] =
+        {"camera", 0, OTX_FLAG_GROUP_PICTURE, "NAME|X,Y,Z,TX,TY,TZ,FOV",
+         "three_quarter, front, back, left, right or top; or eye, target and "
+         "the picture's height in degrees (default three_quarter)"},
+    [OTX_FLAG_TURN] =
+        {"turn", 0, OTX_FLAG_GROUP_PICTURE, "DEGREES",
+         "turn the named camera about the vertical"},
+    [OTX_FLAG_SIZE] =
+        {"size", 0, OTX_FLAG_GROUP_PICTURE, "WxH", "pixels (default 1280x720)"},
+    [OTX_FLAG_SAMPLES] =
+        {"samples", 0, OTX_FLAG_GROUP_PICTURE, "N",
+         "N x N rays a pixel, 1 to 16 (default 4)"},
+    [OTX_FLAG_SHOW] =
+        {"show", 0, OTX_FLAG_GROUP_PICTURE, "WHAT",
+         "texture, patches, stretch, seams, uv, normals or flat (default "
+         "texture)"},
+    [OTX_FLAG_UNLIT] =
+        {"unlit", 0, OTX_FLAG_GROUP_PICTURE, NULL,
+         "the colours as they are, without light"},
+    [OTX_FLAG_THREADS] =
+        {"threads", 0, OTX_FLAG_GROUP_COMMON, "N",
+         "threads, 0 for all cores; the result does not depend on it (default: "
+         "$OSDTEX_THREADS, $CUE_THREADS, $SLURM_CPUS_PER_TASK, else 0)"},
+    [OTX_FLAG_MEMORY_LIMIT] =
+        {"memory-limit", 0, OTX_FLAG_GROUP_COMMON, "SIZE",
+         "stop rather than use more: bytes, or 500M, 8G; 0 for none (default: "
+         "three quarters of the machine's)"},
+    [OTX_FLAG_DRY_RUN] =
+        {"dry-run", 'n', OTX_FLAG_GROUP_COMMON, NULL,
+         "read and check the inputs, say what would be done, write nothing"},
+    [OTX_FLAG_UPDATE] =
+        {"update", 'u', OTX_FLAG_GROUP_COMMON, NULL,
+         "do nothing when the outputs were made by this version from the same "
+         "inputs and options"},
+    [OTX_FLAG_MAN] =
+        {"man", 0, OTX_FLAG_GROUP_HIDDEN, NULL, "print the man page"},
+    [OTX_FLAG_COMPLETION] =
+        {"completion", 0, OTX_FLAG_GROUP_HIDDEN, NULL,
+         "print a completion script for bash"},
+    [OTX_FLAG_VERBOSE] =
+        {"verbose", 'v', OTX_FLAG_GROUP_COMMON, NULL,
+         "also say how long each stage took"},
+    [OTX_FLAG_QUIET] =
+        {"quiet", 'q', OTX_FLAG_GROUP_COMMON, NULL, "only say what is wrong"},
+    [OTX_FLAG_HELP] =
+        {"help", 'h', OTX_FLAG_GROUP_COMMON, NULL, "print this and exit"},
+    [OTX_FLAG_VERSION] =
+        {"version", 0, OTX_FLAG_GROUP_COMMON, NULL,
+         "print the version and exit"},
+};
+
+const otx_flag *
+otx_flag_at(otx_flag_id id)
+{
+    return &flags[id];
+}
+
+const char *
+otx_flag_name(int index)
+{
+    return index < OTX_FLAG_COUNT ? flags[index].name : NULL;
+}
+
+const char *
+otx_flag_group_title(otx_flag_group group)
+{
+    static const char *const titles[] = {
+        "Options",     "The cage",       "The exemplar and its colours",
+        "The picture", "Common options", NULL};
+
+    return titles[group];
+}
+
+/* Flags as getopt_long wants them; `val` is id + 256 so that letters and ids
+ * never meet. */
+typedef struct getopt_table
+{
+    struct option longs[OTX_FLAG_COUNT + 1];
+    char shorts[2 * OTX_FLAG_COUNT + 2];
+} getopt_table;
+
+enum
+{
+    ID_BASE = 256
+};
+
+static getopt_table
+make_table(const otx_flag_id *ids)
+{
+    getopt_table table = {0};
+    int count = 0;
+    char *s = table.shorts;
+
+    *s++ = ':'; /* a missing argument is told from an unknown flag */
+    for (; *ids != OTX_FLAG_COUNT; ++ids)
+    {
+        const otx_flag *f = &flags[*ids];
+
+        table.longs[count++] = (struct option){
+            f->name, f->argument ? required_argument : no_argument, NULL,
+            ID_BASE + (int)*ids};
+        if (f->letter)
+            *s++ = f->letter;
+        if (f->letter && f->argument)
+            *s++ = ':';
+    }
+    return table;
+}
+
+static bool
+complain(const char *word)
+{
+    char name[64];
+    const char *near_name;
+
+    if (strncmp(word, "--", 2) != 0)
+    {
+        fprintf(
+            stderr, "osdtex: error: there is no option '%s'; see --help\n",
+            word);
+        return false;
+    }
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
+    near_name = otx_suggest_name(name, otx_flag_name);
+    if (near_name && strcmp(near_name, name) == 0)
+        fprintf(
+            stderr,
+            "osdtex: error: '--%s' cannot stand here or takes no value; see "
+            "--help\n",
+            name);
+    else if (near_name)
+        fprintf(
+            stderr,
+            "osdtex: error: there is no option '--%s'; did you mean '--%s'?\n",
+            name, near_name);
+    else
+        fprintf(
+            stderr, "osdtex: error: there is no option '--%s'; see --help\n",
+            name);
+    return false;
+}
+
+/* KEY=VALUE into the list; argv is ours to cut. */
+static bool
+take_setting(char *text, otx_flag_values *out)
+{
+    char *equals = strchr(text, '=');
+
+    if (!equals || equals == text)
+    {
+        fprintf(
+            stderr, "osdtex: error: --set takes KEY=VALUE, not '%s'\n", text);
+        return false;
+    }
+    if (out->setting_count == OTX_FLAG_SETTINGS_MAX)
+    {
+        fprintf(stderr, "osdtex: error: --set is given too often\n");
+        return false;
+    }
+    *equals = '\0';
+    out->settings[out->setting_count++] = (osdtex_setting){text, equals + 1};
+    return true;
+}
+
+static bool
+take_operands(int argc, char **argv, otx_flag_values *out)
+{
+    for (int i = optind; i < argc; ++i)
+    {
+        if (out->operand_count == OTX_FLAG_OPERANDS_MAX)
+        {
+            fprintf(
+                stderr, "osdtex: error: '%s' is one file too many\n", argv[i]);
+            return false;
+        }
+        out->operands[out->operand_count++] = argv[i];
+    }
+    return true;
+}
+
+static int
+id_of_letter(int letter)
+{
+    for (int i = 0; i < OTX_FLAG_COUNT; ++i)
+        if (flags[i].letter == letter)
+            return i;
+    return OTX_FLAG_COUNT;
+}
+
+bool
+otx_flag_parse(
+    int argc, char **argv, const otx_flag_id *ids, otx_flag_values *out)
+{
+    const getopt_table table = make_table(ids);
+
+    *out = (otx_flag_values){0};
+    optind = 0; /* glibc: start afresh */
+    opterr = 0;
+    for (;;)
+    {
+        const int at = optind > 0 ? optind : 1;
+        const int c = getopt_long(argc, argv, table.shorts, table.longs, NULL);
+        int id;
+
+        if (c == -1)
+            return take_operands(argc, argv, out);
+        if (c == '?' && optopt > 0 && optopt < ID_BASE)
+            return complain((const char[]){'-', (char)optopt, '\0'});
+        if (c == '?')
+            return complain(argv[optind > 1 ? optind - 1 : at]);
+        if (c == ':')
+        {
+            fprintf(
+                stderr, "osdtex: error: '%s' needs a value\n",
+                argv[optind - 1]);
+            return false;
+        }
+        id = c >= ID_BASE ? c - ID_BASE : id_of_letter(c);
+        out->text[id] = optarg ? optarg : "";
+        if (id == OTX_FLAG_SET && !take_setting(optarg, out))
+            return false;
+    }
+}

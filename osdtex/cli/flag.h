@@ -1,0 +1,99 @@
+/* flag.h -- every flag of every sub-command, in one table.
+ *
+ * The table is where a flag's name, letter, argument and help are written
+ * down: parsing, `--help`, the man page and the shell completion read it. A
+ * sub-command only lists which flags it takes. */
+#ifndef OTX_CLI_FLAG_H
+#define OTX_CLI_FLAG_H
+
+#include <osdtex/osdtex.h>
+#include <stdbool.h>
+
+typedef enum otx_flag_id
+{
+    OTX_FLAG_OUTPUT,
+    OTX_FLAG_METHOD,
+    OTX_FLAG_SCALE,
+    OTX_FLAG_LEVEL,
+    OTX_FLAG_SEED,
+    OTX_FLAG_SET,
+    OTX_FLAG_FIRST_PATCH,
+    OTX_FLAG_PREVIEW,
+    OTX_FLAG_JSON_REPORT,
+    OTX_FLAG_SCHEME,
+    OTX_FLAG_BOUNDARY,
+    OTX_FLAG_FVAR,
+    OTX_FLAG_FROM,
+    OTX_FLAG_TO,
+    OTX_FLAG_MATCH_SPACE,
+    OTX_FLAG_MATCH_IN,
+    OTX_FLAG_WRAP,
+    OTX_FLAG_COLORCONFIG,
+    OTX_FLAG_CAMERA,
+    OTX_FLAG_TURN,
+    OTX_FLAG_SIZE,
+    OTX_FLAG_SAMPLES,
+    OTX_FLAG_SHOW,
+    OTX_FLAG_UNLIT,
+    OTX_FLAG_THREADS,
+    OTX_FLAG_MEMORY_LIMIT,
+    OTX_FLAG_DRY_RUN,
+    OTX_FLAG_UPDATE,
+    OTX_FLAG_MAN,
+    OTX_FLAG_COMPLETION,
+    OTX_FLAG_VERBOSE,
+    OTX_FLAG_QUIET,
+    OTX_FLAG_HELP,
+    OTX_FLAG_VERSION,
+    OTX_FLAG_COUNT
+} otx_flag_id;
+
+/* Where a flag stands in `--help`. */
+typedef enum otx_flag_group
+{
+    OTX_FLAG_GROUP_MAIN,
+    OTX_FLAG_GROUP_CAGE,
+    OTX_FLAG_GROUP_COLOUR,
+    OTX_FLAG_GROUP_PICTURE,
+    OTX_FLAG_GROUP_COMMON,
+    OTX_FLAG_GROUP_HIDDEN,
+    OTX_FLAG_GROUP_COUNT
+} otx_flag_group;
+
+typedef struct otx_flag
+{
+    const char *name; /* without dashes */
+    char letter;      /* 0 none */
+    otx_flag_group group;
+    const char *argument; /* how it is called in the help; NULL: a switch */
+    const char *help;
+} otx_flag;
+
+enum
+{
+    OTX_FLAG_SETTINGS_MAX = 64,
+    OTX_FLAG_OPERANDS_MAX = 8
+};
+
+/* A command line, taken apart. Strings point into argv. */
+typedef struct otx_flag_values
+{
+    const char *text[OTX_FLAG_COUNT]; /* NULL: not given; "" for switches */
+    osdtex_setting settings[OTX_FLAG_SETTINGS_MAX]; /* of --set, in order */
+    int setting_count;
+    const char *operands[OTX_FLAG_OPERANDS_MAX];
+    int operand_count;
+} otx_flag_values;
+
+const otx_flag *otx_flag_at(otx_flag_id id);
+const char *otx_flag_group_title(otx_flag_group group);
+
+/* Takes argv[1..argc) apart. `ids` ends with OTX_FLAG_COUNT. On a mistake it
+ * prints one sentence on stderr and returns false. */
+bool otx_flag_parse(
+    int argc, char **argv, const otx_flag_id *ids, otx_flag_values *out);
+
+/* The same flags by name, for suggestions; NULL behind the end. */
+const char *otx_flag_name(int index);
+
+#endif

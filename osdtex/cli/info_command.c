@@ -1,0 +1,140 @@
+/* info_command.c -- osdtex info: what a file is, as osdtex sees it. */
+#include "cli/inputs.h"
+#include "cli/session.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Whether a file opens like one of the pictures that are read. */
+static bool
+looks_like_picture(const char *path)
+{
+    static const struct
+    {
+        const char *bytes;
+        size_t count;
+    } magics[] = {
+        {"\x76\x2f\x31\x01", 4},
+        {"\x89PNG", 4},
+        {"II*\0", 4},
+        {"MM\0*", 4},
+        {"II+\0", 4},
+        {"MM\0+", 4},
+        {"\xff\xd8\xff", 3},
+    };
+    unsigned char head[4] = {0};
+    FILE *file = fopen(path, "rb");
+    bool found = false;
+
+    if (!file)
+        return false;
+    if (fread(head, 1, sizeof head, file) == sizeof head)
+        for (size_t i = 0; i < sizeof magics / sizeof magics[0]; ++i)
+            found |= memcmp(head, magics[i].bytes, magics[i].count) == 0;
+    fclose(file);
+    return found;
+}
+
+static void
+print_cage(const osdtex_cage_info *c)
+{
+    const int others = c->face_count - c->triangle_count - c->quad_count;
+
+    printf("%s: cage, hash %s\n", c->path, c->hash ? c->hash : "none");
+    printf(
+        "  faces       %d (%d quads, %d triangles, %d others), %d vertices, "
+        "%d edges\n",
+        c->face_count, c->quad_count, c->triangle_count, others, c->vert_count,
+        c->edge_count);
+    printf(
+        "  components  %d, %d boundary edges%s\n", c->component_count,
+        c->boundary_edge_count, c->boundary_edge_count == 0 ? ": closed" : "");
+    printf(
+        "  box         %g %g %g to %g %g %g, diagonal %g\n",
+        (double)c->lower[0], (double)c->lower[1], (double)c->lower[2],
+        (double)c->upper[0], (double)c->upper[1], (double)c->upper[2],
+        c->diagonal);
+    printf(
+        "  edges       %g long in the mean; default scale %g\n",
+        c->mean_edge_length, c->default_scale);
+    printf(
+        "  tags        %d creases, %d corners, %d holes\n", c->crease_count,
+        c->corner_count, c->hole_count);
+    printf(
+        "  rules       %s, boundary %s, face-varying %s\n",
+        otx_inputs_scheme_name(c->scheme),
+        otx_inputs_boundary_name(c->boundary), otx_inputs_fvar_name(c->fvar));
+    printf(
+        "  carries     %d UVs, %d groups, %d materials\n", c->uv_count,
+        c->group_count, c->material_count);
+    if (c->triangle_count == c->face_count && c->scheme != OSDTEX_SCHEME_LOOP)
+        printf("  hint        all faces are triangles: --scheme loop?\n");
+}
+
+static void
+print_exemplar(const osdtex_exemplar_info *e)
+{
+    static const char *const tiles[2][2] = {
+        {"in no direction", "bottom to top"}, {"left to right", "both ways"}};
+
+    printf("%s: picture, hash %s\n", e->path, e->hash ? e->hash : "none");
+    printf(
+        "  size        %d x %d, %d channels, %s\n", e->width, e->height,
+        e->channels, e->type);
+    printf(
+        "  colours     from '%s' to '%s', compared in '%s' (%s)\n",
+        e->source_space, e->linear_space,
+        e->match_space ? e->match_space : "the sRGB curve", e->embedding);
+    printf("  tiles       %s\n", tiles[e->wrap_x != 0][e->wrap_y != 0]);
+}
+
+static osdtex_status
+inspect_cage(
+    osdtex_context *context, const char *path,
+    const osdtex_cage_options *options)
+{
+    osdtex_cage *cage;
+    const osdtex_status status =
+        osdtex_cage_read(context, path, options, &cage);
+
+    if (status == OSDTEX_OK)
+        print_cage(osdtex_cage_describe(cage));
+    osdtex_cage_destroy(cage);
+    return status;
+}
+
+static osdtex_status
+inspect_exemplar(
+    osdtex_context *context, const char *path,
+    const osdtex_exemplar_options *options)
+{
+    osdtex_exemplar *exemplar;
+    const osdtex_status status =
+        osdtex_exemplar_read(context, path, options, &exemplar);
+
+    if (status == OSDTEX_OK)
+        print_exemplar(osdtex_exemplar_describe(exemplar));
+    osdtex_exemplar_destroy(exemplar);
+    return status;
+}
+
+int
+otx_info_command_run(const otx_flag_values *values)
+{
+    const char *path = values->operands[0];
+    osdtex_cage_options cage_options;
+    osdtex_exemplar_options exemplar_options;
+    otx_session session;
+    osdtex_status status;
+
+    if (!otx_inputs_cage(values, &cage_options) ||
+        !otx_inputs_exemplar(values, &exemplar_options))
+        return OTX_EXIT_USAGE;
+    if (!otx_session_begin(&session, values))
+        return session.exit_code;
+    status = looks_like_picture(path)
+                 ? inspect_exemplar(session.context, path, &exemplar_options)
+                 : inspect_cage(session.context, path, &cage_options);
+    return otx_session_end(&session, status);
+}

@@ -1,0 +1,16 @@
+/* inputs.h -- what the flags say about cages and exemplars. */
+#ifndef OTX_CLI_INPUTS_H
+#define OTX_CLI_INPUTS_H
+
+#include "cli/flag.h"
+
+/* False after saying what is wrong. */
+bool otx_inputs_cage(const otx_flag_values *values, osdtex_cage_options *out);
+bool otx_inputs_exemplar(
+    const otx_flag_values *values, osdtex_exemplar_options *out);
+
+const char *otx_inputs_scheme_name(osdtex_scheme scheme);
+const char *otx_inputs_boundary_name(osdtex_boundary boundary);
+const char *otx_inputs_fvar_name(osdtex_fvar fvar);
+
+#endif

@@ -1,0 +1,81 @@
+/* main.c -- finds the sub-command and runs it. */
+#include "cli/session.h"
+#include "cli/suggest.h"
+#include "cli/usage.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static int
+no_such_command(const char *name)
+{
+    const char *near_name = otx_suggest_name(name, otx_command_name);
+
+    if (near_name)
+        return otx_session_refuse(
+            "there is no command '%s'; did you mean '%s'?", name, near_name);
+    return otx_session_refuse(
+        "there is no command '%s'; see osdtex --help", name);
+}
+
+static int
+run(const otx_command *command, int argc, char **argv)
+{
+    otx_flag_values values;
+
+    if (!otx_flag_parse(argc, argv, command->flags, &values))
+        return OTX_EXIT_USAGE;
+    if (values.text[OTX_FLAG_HELP])
+    {
+        otx_usage_print_command(command);
+        return OTX_EXIT_OK;
+    }
+    if (values.text[OTX_FLAG_VERSION])
+    {
+        printf("osdtex %s\n", osdtex_version());
+        return OTX_EXIT_OK;
+    }
+    if (values.operand_count < command->operands_min ||
+        values.operand_count > command->operands_max)
+        return otx_session_refuse(
+            "osdtex %s takes %s; see osdtex %s --help", command->name,
+            command->operands, command->name);
+    return command->run(&values);
+}
+
+/* A full disk or a closed pipe behind stdout is an error like any other. */
+static int
+flush(int exit_code)
+{
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return exit_code;
+    fputs("osdtex: error: standard output cannot be written\n", stderr);
+    return exit_code != OTX_EXIT_OK ? exit_code : OTX_EXIT_IO;
+}
+
+int
+main(int argc, char **argv)
+{
+    const otx_command *command;
+
+    if (argc < 2)
+    {
+        otx_usage_print();
+        flush(OTX_EXIT_USAGE);
+        return OTX_EXIT_USAGE;
+    }
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)
+    {
+        otx_usage_print();
+        return flush(OTX_EXIT_OK);
+    }
+    if (strcmp(argv[1], "--version") == 0)
+    {
+        printf("osdtex %s\n", osdtex_version());
+        return flush(OTX_EXIT_OK);
+    }
+    command = otx_command_find(argv[1]);
+    if (!command)
+        return no_such_command(argv[1]);
+    return flush(run(command, argc - 1, argv + 1));
+}

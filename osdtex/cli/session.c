@@ -1,0 +1,311 @@
+/* session.c -- findings, progress, signals. */
+#include "cli/session.h"
+#include "cli/value.h"
+
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+enum
+{
+    BAR_WIDTH = 40,
+    MAX_THREADS = 256
+};
+
+/* The one thing a signal handler may touch; a process has one of it. */
+static volatile sig_atomic_t caught_signal;
+
+static void
+catch_signal(int number)
+{
+    caught_signal = number;
+}
+
+/* A second signal kills at once: somebody means it. */
+static void
+listen_to_signals(void)
+{
+    struct sigaction action = {0};
+
+    action.sa_handler = catch_signal;
+    action.sa_flags = (int)SA_RESETHAND;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    /* A closed pipe is an error of the write, not a death. */
+    signal(SIGPIPE, SIG_IGN);
+}
+
+static double
+now(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+double
+otx_session_seconds(const otx_session *session)
+{
+    return now() - session->begun;
+}
+
+static void
+wipe_bar(otx_session *session)
+{
+    if (session->bar_is_shown)
+        fputs("\r\033[K", stderr);
+    session->bar_is_shown = false;
+}
+
+void
+otx_session_say(otx_session *session, const char *format, ...)
+{
+    va_list arguments;
+
+    if (session->quiet)
+        return;
+    wipe_bar(session);
+    fputs("osdtex: ", stderr);
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fputc('\n', stderr);
+}
+
+void
+otx_session_lap(otx_session *session, const char *what)
+{
+    const double t = now();
+
+    if (session->verbose)
+        otx_session_say(session, "%s: %.3f s", what, t - session->lap);
+    session->lap = t;
+}
+
+int
+otx_session_refuse(const char *format, ...)
+{
+    va_list arguments;
+
+    fputs("osdtex: error: ", stderr);
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fputc('\n', stderr);
+    return OTX_EXIT_USAGE;
+}
+
+/* "shirt.obj:4711: ", "shirt.obj: " or "". */
+static void
+put_place(const osdtex_diagnostic *d)
+{
+    if (d->file && d->line > 0)
+        fprintf(stderr, "%s:%lld: ", d->file, (long long)d->line);
+    else if (d->file)
+        fprintf(stderr, "%s: ", d->file);
+}
+
+static void
+put_finding(void *user, const osdtex_diagnostic *d)
+{
+    otx_session *session = user;
+
+    if (session->quiet && d->severity != OSDTEX_SEVERITY_ERROR)
+        return;
+    wipe_bar(session);
+    fputs("osdtex: ", stderr);
+    if (d->severity == OSDTEX_SEVERITY_ERROR)
+        fputs("error: ", stderr);
+    else if (d->severity == OSDTEX_SEVERITY_WARNING)
+        fputs("warning: ", stderr);
+    else
+        fprintf(stderr, "%s: ", d->stage);
+    put_place(d);
+    fprintf(stderr, "%s\n", d->message);
+}
+
+/* Findings are printed when they are new; how many there were is known at the
+ * end. */
+static void
+put_repeats(otx_session *session)
+{
+    osdtex_diagnostic d;
+
+    for (int i = 0; i < osdtex_diagnostic_count(session->context); ++i)
+    {
+        if (osdtex_diagnostic_get(session->context, i, &d) != OSDTEX_OK ||
+            d.count < 2 || d.severity == OSDTEX_SEVERITY_INFO ||
+            (session->quiet && d.severity != OSDTEX_SEVERITY_ERROR))
+            continue;
+        fputs("osdtex: ", stderr);
+        put_place(&d);
+        fprintf(
+            stderr, "%lld findings like this: %s\n", (long long)d.count,
+            d.message);
+    }
+}
+
+static void
+put_bar(otx_session *session, const char *stage, double fraction)
+{
+    const int filled = (int)(fraction * BAR_WIDTH);
+
+    fprintf(
+        stderr, "\r\033[K%-10s [%.*s%*s] %3d%%", stage, filled,
+        "########################################", BAR_WIDTH - filled, "",
+        (int)(100.0 * fraction));
+    fflush(stderr);
+    session->bar_is_shown = true;
+}
+
+/* At most ten times a second on a terminal, once a second in a log: a job that
+ * is over at once says nothing. */
+static bool
+show_progress(void *user, const char *stage, double fraction)
+{
+    otx_session *session = user;
+    const double interval = session->is_terminal ? 0.1 : 1.0;
+    const double t = now();
+    const int percent = (int)(100.0 * fraction);
+
+    if (caught_signal)
+        return false;
+    if (session->quiet || t - session->shown < interval)
+        return true;
+    session->shown = t;
+    if (session->is_terminal)
+    {
+        put_bar(session, stage, fraction);
+        return true;
+    }
+    if (percent == session->percent && strcmp(stage, session->stage) == 0)
+        return true;
+    session->percent = percent;
+    snprintf(session->stage, sizeof session->stage, "%s", stage);
+    fprintf(stderr, "osdtex: %s %d%%\n", stage, percent);
+    return true;
+}
+
+/* --threads, else the first of the environment's words that is a number. */
+static bool
+choose_threads(const otx_flag_values *values, int32_t *out)
+{
+    static const char *const names[] = {
+        "OSDTEX_THREADS", "CUE_THREADS", "SLURM_CPUS_PER_TASK"};
+    const char *text = values->text[OTX_FLAG_THREADS];
+    int64_t threads = 0;
+
+    if (text && !otx_value_int(text, 0, MAX_THREADS, &threads))
+    {
+        otx_session_refuse(
+            "--threads takes a number from 0 to %d, not '%s'", MAX_THREADS,
+            text);
+        return false;
+    }
+    for (int i = 0; !text && i < 3; ++i)
+    {
+        text = getenv(names[i]);
+        if (text && !otx_value_int(text, 0, MAX_THREADS, &threads))
+        {
+            fprintf(
+                stderr,
+                "osdtex: warning: %s is '%s', which is no number of "
+                "threads; ignored\n",
+                names[i], text);
+            text = NULL;
+        }
+    }
+    *out = (int32_t)threads;
+    return true;
+}
+
+static bool
+choose_memory(const otx_flag_values *values, size_t *out)
+{
+    const char *text = values->text[OTX_FLAG_MEMORY_LIMIT];
+    const long pages = sysconf(_SC_PHYS_PAGES);
+    const long page = sysconf(_SC_PAGE_SIZE);
+
+    *out = pages > 0 && page > 0 ? (size_t)pages / 4 * 3 * (size_t)page : 0;
+    if (!text || otx_value_bytes(text, out))
+        return true;
+    otx_session_refuse(
+        "--memory-limit takes a size such as 500M or 8G, not '%s'", text);
+    return false;
+}
+
+bool
+otx_session_begin(otx_session *session, const otx_flag_values *values)
+{
+    osdtex_context_options options = osdtex_context_options_default();
+    osdtex_status status;
+
+    *session = (otx_session){
+        .quiet = values->text[OTX_FLAG_QUIET] != NULL,
+        .verbose = values->text[OTX_FLAG_VERBOSE] != NULL,
+        .is_terminal = isatty(STDERR_FILENO) != 0,
+        .begun = now(),
+        .lap = now(),
+        .shown = now(),
+        .percent = -1,
+        .exit_code = OTX_EXIT_USAGE,
+    };
+    if (!choose_threads(values, &options.threads) ||
+        !choose_memory(values, &options.memory_limit))
+        return false;
+    options.progress = show_progress;
+    options.progress_user = session;
+    options.log = put_finding;
+    options.log_user = session;
+    options.colorconfig = values->text[OTX_FLAG_COLORCONFIG];
+    listen_to_signals();
+    status = osdtex_context_create(&options, &session->context);
+    if (status == OSDTEX_OK)
+        return true;
+    fprintf(
+        stderr, "osdtex: error: no context: %s\n", osdtex_status_name(status));
+    session->exit_code = OTX_EXIT_LIMIT;
+    return false;
+}
+
+static int
+exit_code_of(osdtex_status status)
+{
+    switch (status)
+    {
+    case OSDTEX_OK:
+        return OTX_EXIT_OK;
+    case OSDTEX_ERROR_ARGUMENT:
+        return OTX_EXIT_USAGE;
+    case OSDTEX_ERROR_FORMAT:
+    case OSDTEX_ERROR_TOPOLOGY:
+    case OSDTEX_ERROR_NUMERIC:
+    case OSDTEX_ERROR_SUPPORT:
+        return OTX_EXIT_DATA;
+    case OSDTEX_ERROR_IO:
+        return OTX_EXIT_IO;
+    case OSDTEX_ERROR_COLOUR:
+        return OTX_EXIT_COLOUR;
+    default:
+        return OTX_EXIT_LIMIT;
+    }
+}
+
+int
+otx_session_end(otx_session *session, osdtex_status status)
+{
+    wipe_bar(session);
+    put_repeats(session);
+    osdtex_context_destroy(session->context);
+    session->context = NULL;
+    if (status != OSDTEX_ERROR_CANCELLED)
+        return exit_code_of(status);
+    fputs("osdtex: stopped; nothing was written\n", stderr);
+    return caught_signal ? 128 + caught_signal : OTX_EXIT_LIMIT;
+}

@@ -1,0 +1,46 @@
+/* session.h -- a context with a person in front of it: findings and progress
+ * on stderr, signals that cancel, statuses that become exit codes. */
+#ifndef OTX_CLI_SESSION_H
+#define OTX_CLI_SESSION_H
+
+#include "cli/command.h"
+
+typedef struct otx_session
+{
+    osdtex_context *context;
+    bool quiet, verbose;
+    bool is_terminal;  /* stderr is */
+    bool bar_is_shown; /* and must be wiped before a line */
+    double begun;      /* seconds */
+    double lap;        /* when the last lap ended */
+    double shown;      /* when progress was last shown */
+    char stage[32];    /* whose progress was last shown */
+    int percent;
+    int exit_code; /* of the usage error that otx_session_begin found */
+} otx_session;
+
+/* Makes the context from --threads, --memory-limit, --colorconfig, -v, -q and
+ * the environment, and catches SIGINT and SIGTERM. False after saying what is
+ * wrong; then session->exit_code is what to return. The session must not move.
+ */
+bool otx_session_begin(otx_session *session, const otx_flag_values *values);
+
+/* Frees the context and returns the exit code for `status`. */
+int otx_session_end(otx_session *session, osdtex_status status);
+
+/* A line on stderr, unless -q. */
+void otx_session_say(otx_session *session, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* A line on stderr that opens with "osdtex: error: "; returns the exit code of
+ * a usage error. */
+int otx_session_refuse(const char *format, ...)
+    __attribute__((format(printf, 1, 2)));
+
+/* With -v: says how long it took since the last lap. */
+void otx_session_lap(otx_session *session, const char *what);
+
+/* Seconds since the session began. */
+double otx_session_seconds(const otx_session *session);
+
+#endif

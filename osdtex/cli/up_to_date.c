@@ -1,0 +1,113 @@
+/* up_to_date.c -- hashing jobs, finding the hash again. */
+#include "cli/up_to_date.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum
+{
+    HEAD_BYTES = 4096 /* of the OBJ, where its comments are */
+};
+
+/* Flags that change what is written to the OBJ, MTL or EXR. */
+static const otx_flag_id matter[] = {
+    OTX_FLAG_METHOD,   OTX_FLAG_SCALE,       OTX_FLAG_LEVEL,
+    OTX_FLAG_SEED,     OTX_FLAG_FIRST_PATCH, OTX_FLAG_SCHEME,
+    OTX_FLAG_BOUNDARY, OTX_FLAG_FVAR,        OTX_FLAG_FROM,
+    OTX_FLAG_TO,       OTX_FLAG_MATCH_SPACE, OTX_FLAG_MATCH_IN,
+    OTX_FLAG_WRAP};
+
+static bool
+hash_file(const char *path, char text[OSDTEX_HASH_BYTES])
+{
+    struct stat status;
+    char *bytes;
+    size_t size;
+    FILE *file;
+    bool whole;
+
+    if (stat(path, &status) != 0 || !S_ISREG(status.st_mode))
+        return false;
+    size = (size_t)status.st_size;
+    file = fopen(path, "rb");
+    bytes = malloc(size + 1);
+    whole = file && bytes && fread(bytes, 1, size, file) == size;
+    if (whole)
+        osdtex_hash(bytes, size, text);
+    free(bytes);
+    if (file)
+        fclose(file);
+    return whole;
+}
+
+static bool
+put_file(FILE *out, const char *path)
+{
+    char hash[OSDTEX_HASH_BYTES];
+
+    if (!hash_file(path, hash))
+        return false;
+    fprintf(out, "file %s\n", hash);
+    return true;
+}
+
+/* The job in words. */
+static bool
+put_job(FILE *out, const otx_flag_values *values)
+{
+    const char *config = values->text[OTX_FLAG_COLORCONFIG];
+
+    fprintf(out, "osdtex %s\n", osdtex_version());
+    if (!put_file(out, values->operands[0]) ||
+        !put_file(out, values->operands[1]))
+        return false;
+    config = config ? config : getenv("OCIO");
+    if (config && *config && !put_file(out, config))
+        return false;
+    /* The exemplar's name can choose its colour space, by a file rule. */
+    fprintf(out, "exemplar %s\n", values->operands[1]);
+    for (size_t i = 0; i < sizeof matter / sizeof matter[0]; ++i)
+        if (values->text[matter[i]])
+            fprintf(
+                out, "--%s %s\n", otx_flag_at(matter[i])->name,
+                values->text[matter[i]]);
+    for (int i = 0; i < values->setting_count; ++i)
+        fprintf(
+            out, "--set %s=%s\n", values->settings[i].key,
+            values->settings[i].value);
+    return true;
+}
+
+bool
+otx_up_to_date_job(const otx_flag_values *values, char job[OSDTEX_HASH_BYTES])
+{
+    char *words = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&words, &length);
+    bool known = out && put_job(out, values);
+
+    if (out && fclose(out) != 0)
+        known = false;
+    if (known)
+        osdtex_hash(words, length, job);
+    free(words);
+    return known;
+}
+
+bool
+otx_up_to_date_check(const char *path, const char job[OSDTEX_HASH_BYTES])
+{
+    char head[HEAD_BYTES + 1], line[128];
+    FILE *file = fopen(path, "rb");
+    size_t size;
+
+    if (!file)
+        return false;
+    size = fread(head, 1, HEAD_BYTES, file);
+    fclose(file);
+    head[size] = '\0';
+    snprintf(line, sizeof line, "# " OTX_UP_TO_DATE_COMMENT "%s", job);
+    return strstr(head, line) != NULL;
+}

@@ -1,0 +1,43 @@
+# What `cmake --install` puts where, and how other projects find it:
+# pkg-config osdtex, or find_package(osdtex) with osdtex::shared and
+# osdtex::static.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS osdtex_shared osdtex_static
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES include/osdtex/osdtex.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/osdtex)
+if(TARGET osdtex)
+  install(TARGETS osdtex RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(FILES docs/man/osdtex.1
+  DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+
+# The archive needs what it is made of. Names of libraries rather than targets:
+# a consumer shall not need the (partly broken) CMake packages of the
+# dependencies, only the libraries themselves.
+set(OSDTEX_PRIVATE_LIBS -losdCPU -lOpenEXRCore -lOpenColorIO -lfftw3f
+  -lembree3 -lpng -ltiff -ljpeg -ljansson -lxxhash -lstdc++ -lpthread -lm)
+list(JOIN OSDTEX_PRIVATE_LIBS " " OSDTEX_PRIVATE_LIBS_TEXT)
+
+# From the .pc file up to the prefix, so that the tree can be moved.
+file(RELATIVE_PATH OSDTEX_PC_UP /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig
+  /prefix)
+configure_file(tools/cmake/osdtex.pc.in osdtex.pc @ONLY)
+configure_package_config_file(tools/cmake/osdtexConfig.cmake.in
+  osdtexConfig.cmake INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/osdtex)
+write_basic_package_version_file(osdtexConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/osdtex.pc
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/osdtexConfig.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/osdtexConfigVersion.cmake
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/osdtex)
+
+# Only the public functions are exported; what C++ instantiates from the
+# standard library would be, too.
+set(OSDTEX_EXPORTS ${PROJECT_SOURCE_DIR}/tools/cmake/exports.map)
+target_link_options(osdtex_shared PRIVATE
+  -Wl,--version-script=${OSDTEX_EXPORTS})
+set_target_properties(osdtex_shared PROPERTIES LINK_DEPENDS ${OSDTEX_EXPORTS})
