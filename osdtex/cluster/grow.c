@@ -320,7 +320,7 @@ grow_discs(
     int32_t *member)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    otx_cluster_list regions;
+    otx_cluster_list regions = {0};
 
     OTX_TRY(grow_regions(run, dual, region, wanted, bend, &regions));
     otx_arena_release(run->scratch, mark);
