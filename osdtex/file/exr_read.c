@@ -62,7 +62,10 @@ reader_failed(const reader *r, exr_result_t code)
     switch (code)
     {
     case EXR_ERR_OUT_OF_MEMORY:
-        return otx_fail_memory(r->run, "picture");
+        return otx_fail(
+            r->run, OSDTEX_ERROR_MEMORY, "picture", where_of(r->path),
+            "the EXR asks for more memory than there is; it may be damaged: "
+            "write it again");
     case EXR_ERR_FILE_ACCESS:
         return otx_fail(
             r->run, OSDTEX_ERROR_IO, "picture", where_of(r->path),
