@@ -9,7 +9,7 @@
  *
  * Each step is a loop over independent items, run by the pool or in place. */
 #include "match/exhaust.h"
-#include "match/refine.h"
+#include "match/polish.h"
 
 #include <stdatomic.h>
 #include <string.h>
@@ -41,7 +41,7 @@ typedef struct search
 
     _Atomic int32_t next_angle;
     otx_peaks *lane_peaks; /* [lanes] */
-    otx_refine_picks picks;
+    otx_polish_picks picks;
     candidate *candidates;
     int32_t candidate_count;
 } search;
@@ -180,7 +180,7 @@ descend(void *context, int64_t index, otx_worker *worker)
     {
         if (level == 0)
             round_shift(c);
-        OTX_TRY(otx_refine_window(
+        OTX_TRY(otx_polish_window(
             worker->scratch, s->matcher, &s->picks, FEW_SAMPLES, &c->range,
             level, 2, &c->match));
     }
@@ -194,7 +194,7 @@ sharpen(search *s, candidate *c, otx_arena *scratch)
     otx_match trial = c->match;
     otx_matcher_range range;
 
-    OTX_TRY(otx_refine_gauss_newton(scratch, s->matcher, &s->picks, &trial));
+    OTX_TRY(otx_polish_gauss_newton(scratch, s->matcher, &s->picks, &trial));
     range = otx_matcher_shifts(s->matcher, s->mask, s->query, trial.angle);
     if (!otx_matcher_allows(&range, trial.shift))
         return OSDTEX_OK;
@@ -211,7 +211,7 @@ finish(void *context, int64_t index, otx_worker *worker)
     candidate *c = &s->candidates[index];
 
     if (s->level > 0)
-        OTX_TRY(otx_refine_window(
+        OTX_TRY(otx_polish_window(
             worker->scratch, s->matcher, &s->picks, s->picks.count, &c->range,
             0, 1, &c->match));
     c->match.error = otx_matcher_square(s->matcher, s->mask, &c->match);
@@ -242,7 +242,7 @@ refine(search *s, int32_t capacity)
     int32_t finalists = 2 * capacity;
 
     if (s->level > 0 || s->query->gauss_newton)
-        OTX_TRY(otx_refine_pick_samples(
+        OTX_TRY(otx_polish_pick_samples(
             s->scratch, s->mask, s->query->sample_limit, &s->picks));
     if (s->level > 0)
         OTX_TRY(for_each(s, s->candidate_count, descend));

@@ -1,7 +1,7 @@
-/* test_refine.c -- samples fall on texels with the colours they have there. */
+/* test_polish.c -- samples fall on texels with the colours they have there. */
 #include "scene.h"
 
-#include "match/refine.h"
+#include "match/polish.h"
 
 static const otx_matcher_range ANYWHERE = {
     {-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
@@ -10,18 +10,18 @@ static void
 samples_are_spread_over_the_mask(void **state)
 {
     otx_run *run = test_run_create();
-    otx_refine_picks all, few;
+    otx_polish_picks all, few;
     scene_mask scene;
 
     (void)state;
     scene_mask_make(
         &scene, (otx_vec2){0.0, 0.0}, 5.0, 0.3, (otx_vec2){7.0, 8.0});
     assert_int_equal(
-        otx_refine_pick_samples(run->arena, &scene.mask, 100000, &all),
+        otx_polish_pick_samples(run->arena, &scene.mask, 100000, &all),
         OSDTEX_OK);
     assert_int_equal(all.count, 500); /* 20 cells of 25 texels */
     assert_int_equal(
-        otx_refine_pick_samples(run->arena, &scene.mask, 40, &few), OSDTEX_OK);
+        otx_polish_pick_samples(run->arena, &scene.mask, 40, &few), OSDTEX_OK);
     assert_int_equal(few.count, 40);
     for (int32_t i = 0; i < few.count; ++i)
     {
@@ -55,15 +55,15 @@ the_window_finds_the_cut_out_without_error(void **state)
         const double angle = 0.2 + 0.5 * k;
         const otx_vec2 shift = {60.0, 50.0};
         otx_match match = {.angle = angle, .shift = {62.0, 49.0}};
-        otx_refine_picks picks;
+        otx_polish_picks picks;
         scene_mask scene;
 
         scene_mask_make(&scene, (otx_vec2){3.0, 2.0}, 4.0, angle, shift);
         assert_int_equal(
-            otx_refine_pick_samples(run->arena, &scene.mask, 200, &picks),
+            otx_polish_pick_samples(run->arena, &scene.mask, 200, &picks),
             OSDTEX_OK);
         assert_int_equal(
-            otx_refine_window(
+            otx_polish_window(
                 run->scratch, matcher, &picks, 200, &ANYWHERE, 0, 2, &match),
             OSDTEX_OK);
         assert_true(match.shift.x == shift.x && match.shift.y == shift.y);
@@ -80,17 +80,17 @@ the_window_keeps_to_the_range(void **state)
     otx_matcher *matcher = scene_matcher(run, &image, false);
     const otx_matcher_range range = {{20.5, -INFINITY}, {INFINITY, 29.0}};
     otx_match match = {.shift = {21.0, 29.0}};
-    otx_refine_picks picks;
+    otx_polish_picks picks;
     scene_mask scene;
 
     (void)state;
     scene_mask_make(
         &scene, (otx_vec2){0.0, 0.0}, 4.0, 0.0, (otx_vec2){20.0, 30.0});
     assert_int_equal(
-        otx_refine_pick_samples(run->arena, &scene.mask, 200, &picks),
+        otx_polish_pick_samples(run->arena, &scene.mask, 200, &picks),
         OSDTEX_OK);
     assert_int_equal(
-        otx_refine_window(
+        otx_polish_window(
             run->scratch, matcher, &picks, 200, &range, 0, 2, &match),
         OSDTEX_OK);
     assert_true(otx_matcher_allows(&range, match.shift));

@@ -1,11 +1,11 @@
-/* refine.c -- direct evaluation on samples of the mask.
+/* polish.c -- direct evaluation on samples of the mask.
  *
  * The window compares colours at texel centres: each sample is moved to the
  * centre it falls next to, and takes the colour it has there. Interpolating
  * the exemplar instead would blur it, and would favour angles and shifts that
  * blur it most. Gauss-Newton has to interpolate; what it finds is therefore
  * judged by the exact score. */
-#include "match/refine.h"
+#include "match/polish.h"
 
 #include <string.h>
 
@@ -23,7 +23,7 @@ static const double NEWTON_REACH = 1.5;
 
 typedef struct picker
 {
-    otx_refine_picks *picks; /* list NULL while counting */
+    otx_polish_picks *picks; /* list NULL while counting */
     const otx_mask *mask;
     int64_t total;
     int64_t seen;
@@ -48,7 +48,7 @@ static void
 pick_span(void *context, const otx_mask_span *span)
 {
     picker *p = context;
-    otx_refine_picks *picks = p->picks;
+    otx_polish_picks *picks = p->picks;
     const otx_mask_triangle *triangle = &p->mask->triangles[span->triangle];
     const int64_t end = p->seen + span->count;
     otx_mask_ramp ramp;
@@ -61,7 +61,7 @@ pick_span(void *context, const otx_mask_span *span)
             const otx_vec2 flat = {span->x + (double)n + 0.5, span->y + 0.5};
             const double weight = otx_mask_ramp_weight(&ramp, flat);
 
-            picks->list[picks->count++] = (otx_refine_pick){
+            picks->list[picks->count++] = (otx_polish_pick){
                 .flat = flat,
                 .source = otx_mask_ramp_source(&ramp, flat),
                 .dx = ramp.dx,
@@ -72,18 +72,18 @@ pick_span(void *context, const otx_mask_span *span)
 }
 
 otx_status
-otx_refine_pick_samples(
+otx_polish_pick_samples(
     otx_arena *arena, const otx_mask *mask, int32_t limit,
-    otx_refine_picks *out)
+    otx_polish_picks *out)
 {
     const otx_mask_frame frame = {.rotation = {1.0, 0.0}, .pixel = {1.0, 1.0}};
     picker p = {.picks = out, .mask = mask, .limit = limit};
 
-    *out = (otx_refine_picks){0};
+    *out = (otx_polish_picks){0};
     otx_mask_draw(mask, &frame, count_span, &p);
     if (p.total < p.limit)
         p.limit = (int32_t)p.total;
-    out->list = OTX_NEW(arena, otx_refine_pick, p.limit);
+    out->list = OTX_NEW(arena, otx_polish_pick, p.limit);
     if (!out->list)
         return OSDTEX_ERROR_MEMORY;
     otx_mask_draw(mask, &frame, pick_span, &p);
@@ -102,7 +102,7 @@ typedef struct sample
 /* The pick as it falls on the pixels of the level under a placement. */
 static sample
 snap(
-    const otx_refine_pick *pick, const otx_plane *plane,
+    const otx_polish_pick *pick, const otx_plane *plane,
     const otx_mask_frame *frame)
 {
     const otx_vec2 q = otx_mask_place(frame, pick->flat);
@@ -158,9 +158,9 @@ sum_window(
 }
 
 otx_status
-otx_refine_window(
+otx_polish_window(
     otx_arena *scratch, const otx_matcher *matcher,
-    const otx_refine_picks *picks, int32_t pick_count,
+    const otx_polish_picks *picks, int32_t pick_count,
     const otx_matcher_range *range, int32_t level, int32_t radius,
     otx_match *match)
 {
@@ -296,7 +296,7 @@ move_match(const otx_match *match, otx_vec2 centroid, const double x[3])
 
 static void
 evaluate(
-    const otx_plane *plane, const otx_refine_picks *picks,
+    const otx_plane *plane, const otx_polish_picks *picks,
     const float (*colors)[OTX_PLANE_LANES], otx_vec2 centroid,
     const otx_match *match, normal *out)
 {
@@ -305,7 +305,7 @@ evaluate(
     memset(out, 0, sizeof *out);
     for (int32_t i = 0; i < picks->count; ++i)
     {
-        const otx_refine_pick *pick = &picks->list[i];
+        const otx_polish_pick *pick = &picks->list[i];
         const otx_vec2 p =
             otx_vec2_add(otx_vec2_mul(rotation, pick->flat), match->shift);
         const otx_vec2 arm =
@@ -317,7 +317,7 @@ evaluate(
 
 /* Centroid of the picks and their RMS distance from it. */
 static double
-spread_of(const otx_refine_picks *picks, otx_vec2 *centroid)
+spread_of(const otx_polish_picks *picks, otx_vec2 *centroid)
 {
     double square = 0.0;
 
@@ -336,7 +336,7 @@ spread_of(const otx_refine_picks *picks, otx_vec2 *centroid)
 
 static void
 sample_colors(
-    const otx_plane *plane, const otx_refine_picks *picks,
+    const otx_plane *plane, const otx_polish_picks *picks,
     float (*colors)[OTX_PLANE_LANES])
 {
     for (int32_t i = 0; i < picks->count; ++i)
@@ -350,9 +350,9 @@ sample_colors(
 }
 
 otx_status
-otx_refine_gauss_newton(
+otx_polish_gauss_newton(
     otx_arena *scratch, const otx_matcher *matcher,
-    const otx_refine_picks *picks, otx_match *match)
+    const otx_polish_picks *picks, otx_match *match)
 {
     const otx_arena_mark mark = otx_arena_here(scratch);
     const otx_plane *plane = &matcher->planes[0];
