@@ -12,9 +12,10 @@
 
 enum
 {
-    SIDE = 24,       /* texels */
-    QUARTER = 4,     /* texels of a coarse texel */
-    COARSE = 9,      /* coarse texels across a turned window, odd */
+    SIDE = 24,   /* texels */
+    QUARTER = 4, /* texels of a coarse texel */
+    COARSE = 9,  /* coarse texels across a turned window, odd */
+    PAD = COARSE / 2,
     ANGLES = 36,     /* over the full turn */
     KEPT = 8,        /* angles refined */
     FACES_MAX = 512, /* unfolded at most; windows that need more are left out */
@@ -57,7 +58,8 @@ typedef struct lookup
     const otx_exemplar *exemplar;
     const otx_level *leaf;
     double density;
-    otx_image coarse;         /* a quarter of the exemplar's Lab */
+    otx_image coarse; /* a quarter of the exemplar's Lab, PAD texels of its
+                       * continuation around it */
     const uint8_t *seam_edge; /* [edge_count] */
     const int32_t *seeds;     /* edges at whose middles windows are */
     double *distances;        /* RMS, Lab */
@@ -264,12 +266,14 @@ cut_window(const lookup *l, int32_t edge, window *w)
 /* One coarse texel of a turned window. */
 typedef struct sample
 {
-    int32_t x, y; /* from the centre, coarse texels */
+    ptrdiff_t offset; /* from the centre, floats of the coarse picture */
     const float *color;
 } sample;
 
 static int32_t
-turn_window(const window *w, double angle, sample out[COARSE * COARSE])
+turn_window(
+    const window *w, const otx_image *coarse, double angle,
+    sample out[COARSE * COARSE])
 {
     const otx_vec2 back = otx_vec2_polar(-angle);
     int32_t count = 0;
@@ -287,7 +291,8 @@ turn_window(const window *w, double angle, sample out[COARSE * COARSE])
         if (fx < 0 || fy < 0 || fx + QUARTER > SIDE || fy + QUARTER > SIDE ||
             !w->mean_valid[fy * SIDE + fx])
             continue;
-        out[count++] = (sample){x, y, w->means[fy * SIDE + fx]};
+        out[count++] = (sample){
+            ((ptrdiff_t)y * coarse->width + x) * 3, w->means[fy * SIDE + fx]};
     }
     return count;
 }
@@ -300,28 +305,39 @@ fold_index(int32_t i, int32_t size, bool wrap)
     return i < 0 ? 0 : i < size ? i : size - 1;
 }
 
-/* Sum of squares at one coarse place, given up once it passes `limit`. */
+/* Adds the border to a coarse picture, so that the search need not wrap. */
+static otx_status
+pad_coarse(otx_run *run, lookup *l, const otx_image *inner)
+{
+    OTX_TRY(otx_image_create(
+        run, run->scratch, inner->width + 2 * PAD, inner->height + 2 * PAD, 3,
+        &l->coarse));
+    for (int32_t y = 0; y < l->coarse.height; ++y)
+        for (int32_t x = 0; x < l->coarse.width; ++x)
+            memcpy(
+                otx_image_at(&l->coarse, x, y),
+                otx_image_at(
+                    inner,
+                    fold_index(x - PAD, inner->width, l->exemplar->wrap_x),
+                    fold_index(y - PAD, inner->height, l->exemplar->wrap_y)),
+                3 * sizeof(float));
+    return OSDTEX_OK;
+}
+
+/* Sum of squares around one coarse texel, given up once it passes `limit`. */
 static double
 coarse_error(
-    const lookup *l, const sample *samples, int32_t count, int32_t x, int32_t y,
-    double limit)
+    const float *centre, const sample *samples, int32_t count, double limit)
 {
     double sum = 0.0;
 
     for (int32_t i = 0; i < count && sum < limit; ++i)
     {
-        const float *color = otx_image_at(
-            &l->coarse,
-            fold_index(x + samples[i].x, l->coarse.width, l->exemplar->wrap_x),
-            fold_index(
-                y + samples[i].y, l->coarse.height, l->exemplar->wrap_y));
+        const float *a = centre + samples[i].offset;
+        const float *b = samples[i].color;
+        const float d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 
-        for (int c = 0; c < 3; ++c)
-        {
-            const double d = (double)color[c] - samples[i].color[c];
-
-            sum += d * d;
-        }
+        sum += (double)(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     }
     return sum;
 }
@@ -330,14 +346,16 @@ static pose
 search_angle(const lookup *l, const window *w, double angle)
 {
     sample samples[COARSE * COARSE];
-    const int32_t count = turn_window(w, angle, samples);
+    const int32_t count = turn_window(w, &l->coarse, angle, samples);
     double least = HUGE_VAL;
     int32_t at_x = 0, at_y = 0;
 
-    for (int32_t y = 0; y < l->coarse.height; ++y)
-        for (int32_t x = 0; x < l->coarse.width; ++x)
+    for (int32_t y = 0; y < l->coarse.height - 2 * PAD; ++y)
+        for (int32_t x = 0; x < l->coarse.width - 2 * PAD; ++x)
         {
-            const double error = coarse_error(l, samples, count, x, y, least);
+            const double error = coarse_error(
+                otx_image_at(&l->coarse, x + PAD, y + PAD), samples, count,
+                least);
 
             if (error < least)
             {
@@ -530,7 +548,7 @@ measure(
     int32_t *seeds = OTX_NEW(run->scratch, int32_t, count);
     window *w = OTX_NEW(run->scratch, window, 1);
     double seam[2], interior[2];
-    otx_image half;
+    otx_image half, quarter;
 
     if (!seam_edge || !seeds || !w)
         return otx_fail_memory(run, "measure");
@@ -538,7 +556,8 @@ measure(
         seam_edge[seams->edges[i]] = 1;
     l->seam_edge = seam_edge;
     OTX_TRY(otx_image_halve(run, run->scratch, &l->exemplar->lab, &half));
-    OTX_TRY(otx_image_halve(run, run->scratch, &half, &l->coarse));
+    OTX_TRY(otx_image_halve(run, run->scratch, &half, &quarter));
+    OTX_TRY(pad_coarse(run, l, &quarter));
     out->seam_count = seed_seams(l, w, seams, count, seeds);
     OTX_TRY(look_up_all(run, l, seeds, out->seam_count, seam));
     OTX_TRY(otx_progress(run, "measure", 0.75));

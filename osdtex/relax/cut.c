@@ -12,8 +12,6 @@
 #include "math/maxflow.h"
 #include "relax/cut_cost.h"
 
-#include <string.h>
-
 enum
 {
     NONE = -1,
