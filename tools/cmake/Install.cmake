@@ -18,7 +18,8 @@ install(FILES docs/man/osdtex.1
 # a consumer shall not need the (partly broken) CMake packages of the
 # dependencies, only the libraries themselves.
 set(OSDTEX_PRIVATE_LIBS -losdCPU -lOpenEXRCore -lOpenColorIO -lfftw3f
-  -lembree3 -lpng -ltiff -ljpeg -ljansson -lxxhash -lstdc++ -lpthread -lm)
+  -lcholmod -lembree3 -lpng -ltiff -ljpeg -ljansson -lxxhash -lcholmod -lstdc++
+  -lpthread -lm)
 list(JOIN OSDTEX_PRIVATE_LIBS " " OSDTEX_PRIVATE_LIBS_TEXT)
 
 # From the .pc file up to the prefix, so that the tree can be moved.
@@ -26,7 +27,8 @@ file(RELATIVE_PATH OSDTEX_PC_UP /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig
   /prefix)
 configure_file(tools/cmake/osdtex.pc.in osdtex.pc @ONLY)
 configure_package_config_file(tools/cmake/osdtexConfig.cmake.in
-  osdtexConfig.cmake INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/osdtex)
+  osdtexConfig.cmake INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/osdtex
+  PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_LIBDIR)
 write_basic_package_version_file(osdtexConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/osdtex.pc

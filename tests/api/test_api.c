@@ -1,0 +1,498 @@
+/* test_api.c -- the library as a host sees it: arguments, ownership, failing
+ * allocations, cancelling at every moment. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <osdtex/osdtex.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char cage_path[] = "models/cages/plane.obj";
+static const char exemplar_path[] = "models/exemplars/gravel_tile.png";
+
+static const float cube_points[] = {-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1,
+                                    -1, -1, 1,  1, -1, 1,  -1, 1, 1,  1, 1, 1};
+static const osdtex_index cube_sizes[] = {4, 4, 4, 4, 4, 4};
+static const osdtex_index cube_verts[] = {
+    0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+
+static osdtex_cage_arrays
+cube(void)
+{
+    osdtex_cage_arrays arrays = osdtex_cage_arrays_none();
+
+    arrays.vert_count = 8;
+    arrays.face_count = 6;
+    arrays.points = cube_points;
+    arrays.face_sizes = cube_sizes;
+    arrays.face_verts = cube_verts;
+    return arrays;
+}
+
+/* A heap that counts, and fails at the k-th allocation. */
+typedef struct meter
+{
+    _Atomic long blocks;
+    _Atomic long calls;
+    long fail_at; /* -1 never */
+    /* Progress calls until cancelled; -1 never. */
+    long cancel_at;
+    long progress_calls;
+} meter;
+
+static void *
+meter_alloc(void *user, size_t bytes)
+{
+    meter *m = user;
+    const long call = m->calls++;
+
+    if (call == m->fail_at)
+        return NULL;
+    ++m->blocks;
+    return malloc(bytes);
+}
+
+static void
+meter_release(void *user, void *block, size_t bytes)
+{
+    meter *m = user;
+
+    (void)bytes;
+    --m->blocks;
+    free(block);
+}
+
+static bool
+meter_progress(void *user, const char *stage, double fraction)
+{
+    meter *m = user;
+
+    assert_non_null(stage);
+    assert_true(fraction >= 0.0 && fraction <= 1.0);
+    return m->progress_calls++ != m->cancel_at;
+}
+
+static osdtex_context_options
+metered(meter *m)
+{
+    osdtex_context_options options = osdtex_context_options_default();
+
+    options.alloc = meter_alloc;
+    options.release = meter_release;
+    options.alloc_user = m;
+    options.progress = meter_progress;
+    options.progress_user = m;
+    options.threads = 2;
+    return options;
+}
+
+typedef struct pipe
+{
+    osdtex_cage *cage;
+    osdtex_surface *surface;
+    osdtex_exemplar *exemplar;
+    osdtex_mapping *mapping;
+    osdtex_model *model;
+    osdtex_image *image;
+} pipe;
+
+static void
+pipe_destroy(pipe *p)
+{
+    osdtex_image_destroy(p->image);
+    osdtex_model_destroy(p->model);
+    osdtex_mapping_destroy(p->mapping);
+    osdtex_exemplar_destroy(p->exemplar);
+    osdtex_surface_destroy(p->surface);
+    osdtex_cage_destroy(p->cage);
+}
+
+/* Everything up to the picture, small. */
+static osdtex_status
+pipe_run(osdtex_context *context, pipe *p)
+{
+    osdtex_surface_options refine = osdtex_surface_options_default();
+    osdtex_map_options map = osdtex_map_options_default();
+    osdtex_render_options render = osdtex_render_options_default();
+    osdtex_status status;
+
+    refine.level = 1;
+    map.scale = 4.0;
+    render.width = render.height = 16;
+    render.samples = 1;
+    *p = (pipe){0};
+    status = osdtex_cage_read(context, cage_path, NULL, &p->cage);
+    if (status == OSDTEX_OK)
+        status = osdtex_surface_refine(context, p->cage, &refine, &p->surface);
+    if (status == OSDTEX_OK)
+        status =
+            osdtex_exemplar_read(context, exemplar_path, NULL, &p->exemplar);
+    if (status == OSDTEX_OK)
+        status =
+            osdtex_map(context, p->surface, p->exemplar, &map, &p->mapping);
+    if (status == OSDTEX_OK)
+        status = osdtex_model_create(context, p->mapping, &p->model);
+    if (status == OSDTEX_OK)
+        status = osdtex_render(context, p->model, &render, &p->image);
+    return status;
+}
+
+/* --------------------------------------------------------------------- */
+
+static int
+set_up(void **state)
+{
+    osdtex_context *context;
+
+    if (osdtex_context_create(NULL, &context) != OSDTEX_OK)
+        return 1;
+    *state = context;
+    return 0;
+}
+
+static int
+tear_down(void **state)
+{
+    osdtex_context_destroy(*state);
+    return 0;
+}
+
+static void
+names_and_versions(void **state)
+{
+    char hash[OSDTEX_HASH_BYTES];
+
+    (void)state;
+    assert_string_equal(osdtex_version(), "0.1.0");
+    assert_string_equal(osdtex_status_name(OSDTEX_OK), "OK");
+    assert_string_equal(osdtex_status_name(OSDTEX_ERROR_COLOUR), "COLOUR");
+    assert_string_equal(osdtex_status_name(1), "UNKNOWN");
+    assert_string_equal(osdtex_status_name(-11), "UNKNOWN");
+    osdtex_hash("", 0, hash);
+    assert_int_equal(strlen(hash), OSDTEX_HASH_BYTES - 1);
+}
+
+static void
+null_is_an_argument_or_nothing(void **state)
+{
+    osdtex_context *context = *state;
+    osdtex_cage *cage = (osdtex_cage *)1;
+    osdtex_surface *surface = (osdtex_surface *)1;
+    osdtex_exemplar *exemplar = (osdtex_exemplar *)1;
+    osdtex_mapping *mapping = (osdtex_mapping *)1;
+    osdtex_model *model = (osdtex_model *)1;
+    osdtex_image *image = (osdtex_image *)1;
+    const osdtex_status wrong = OSDTEX_ERROR_ARGUMENT;
+
+    assert_int_equal(osdtex_context_create(NULL, NULL), wrong);
+    assert_int_equal(osdtex_cage_read(NULL, "x", NULL, &cage), wrong);
+    assert_null(cage);
+    assert_int_equal(osdtex_cage_read(context, NULL, NULL, &cage), wrong);
+    assert_int_equal(osdtex_cage_read(context, "x", NULL, NULL), wrong);
+    assert_int_equal(osdtex_cage_create(context, NULL, NULL, &cage), wrong);
+    assert_int_equal(
+        osdtex_surface_refine(context, NULL, NULL, &surface), wrong);
+    assert_null(surface);
+    assert_int_equal(
+        osdtex_exemplar_read(context, NULL, NULL, &exemplar), wrong);
+    assert_null(exemplar);
+    assert_int_equal(
+        osdtex_exemplar_create(context, NULL, NULL, &exemplar), wrong);
+    assert_int_equal(osdtex_map(context, NULL, NULL, NULL, &mapping), wrong);
+    assert_null(mapping);
+    assert_int_equal(osdtex_mapping_write(context, NULL, "x", NULL), wrong);
+    assert_int_equal(osdtex_report_write(context, NULL, "x"), wrong);
+    assert_int_equal(osdtex_model_read(context, NULL, &model), wrong);
+    assert_null(model);
+    assert_int_equal(osdtex_model_create(context, NULL, &model), wrong);
+    assert_int_equal(osdtex_render(context, NULL, NULL, &image), wrong);
+    assert_null(image);
+    assert_int_equal(
+        osdtex_image_create(context, 1, 1, 3, NULL, &image), wrong);
+    assert_int_equal(osdtex_image_write(context, NULL, "x.png"), wrong);
+    assert_null(osdtex_cage_describe(NULL));
+    assert_null(osdtex_surface_describe(NULL));
+    assert_null(osdtex_exemplar_describe(NULL));
+    assert_null(osdtex_mapping_describe(NULL));
+    assert_null(osdtex_image_describe(NULL));
+    osdtex_cage_destroy(NULL);
+    osdtex_surface_destroy(NULL);
+    osdtex_exemplar_destroy(NULL);
+    osdtex_mapping_destroy(NULL);
+    osdtex_model_destroy(NULL);
+    osdtex_image_destroy(NULL);
+    osdtex_context_destroy(NULL);
+}
+
+static void
+options_without_a_size_are_refused(void **state)
+{
+    osdtex_cage_options options = {0};
+    osdtex_context_options context_options = {0};
+    osdtex_cage_arrays arrays = cube();
+    osdtex_context *context;
+    osdtex_cage *cage;
+
+    assert_int_equal(
+        osdtex_cage_create(*state, &arrays, &options, &cage),
+        OSDTEX_ERROR_ARGUMENT);
+    assert_int_equal(
+        osdtex_context_create(&context_options, &context),
+        OSDTEX_ERROR_ARGUMENT);
+}
+
+/* A caller that was built against a shorter struct gets the defaults for what
+ * it does not know. */
+static void
+shorter_options_are_completed(void **state)
+{
+    osdtex_cage_options options = osdtex_cage_options_default();
+    osdtex_cage_arrays arrays = cube();
+    osdtex_cage *cage;
+
+    options.size = offsetof(osdtex_cage_options, boundary);
+    options.scheme = OSDTEX_SCHEME_BILINEAR;
+    options.boundary = 99; /* beyond the size: not looked at */
+    assert_int_equal(
+        osdtex_cage_create(*state, &arrays, &options, &cage), OSDTEX_OK);
+    assert_int_equal(
+        osdtex_cage_describe(cage)->scheme, OSDTEX_SCHEME_BILINEAR);
+    assert_int_equal(
+        osdtex_cage_describe(cage)->boundary, OSDTEX_BOUNDARY_EDGE_AND_CORNER);
+    osdtex_cage_destroy(cage);
+}
+
+static void
+a_cube_from_arrays(void **state)
+{
+    osdtex_surface_options refine = osdtex_surface_options_default();
+    osdtex_cage_arrays arrays = cube();
+    osdtex_surface *surface;
+    const osdtex_surface_info *leaves;
+    const osdtex_cage_info *info;
+    osdtex_cage *cage;
+
+    assert_int_equal(
+        osdtex_cage_create(*state, &arrays, NULL, &cage), OSDTEX_OK);
+    info = osdtex_cage_describe(cage);
+    assert_int_equal(info->edge_count, 12);
+    assert_int_equal(info->quad_count, 6);
+    assert_int_equal(info->component_count, 1);
+    assert_int_equal(info->boundary_edge_count, 0);
+    assert_true(fabs(info->diagonal - 2.0 * sqrt(3.0)) < 1e-6);
+    assert_true(fabs(info->default_scale - 0.2 * info->diagonal) < 1e-12);
+    assert_null(info->path);
+    assert_null(info->hash);
+    refine.level = 2;
+    assert_int_equal(
+        osdtex_surface_refine(*state, cage, &refine, &surface), OSDTEX_OK);
+    leaves = osdtex_surface_describe(surface);
+    assert_int_equal(leaves->face_count, 6 * 16);
+    assert_int_equal(leaves->corner_count, 4 * leaves->face_count);
+    for (osdtex_index f = 0; f < leaves->face_count; ++f)
+        assert_int_equal(leaves->face_cage[f], f / 16);
+    osdtex_surface_destroy(surface);
+    osdtex_cage_destroy(cage);
+}
+
+static void
+bad_arrays_are_refused_with_a_face(void **state)
+{
+    osdtex_index verts[24];
+    osdtex_cage_arrays arrays = cube();
+    osdtex_diagnostic d;
+    osdtex_cage *cage;
+
+    memcpy(verts, cube_verts, sizeof verts);
+    verts[9] = 8;
+    arrays.face_verts = verts;
+    assert_int_equal(
+        osdtex_cage_create(*state, &arrays, NULL, &cage), OSDTEX_ERROR_FORMAT);
+    assert_null(cage);
+    assert_int_equal(
+        osdtex_diagnostic_get(*state, osdtex_diagnostic_count(*state) - 1, &d),
+        OSDTEX_OK);
+    assert_int_equal(d.severity, OSDTEX_SEVERITY_ERROR);
+    assert_int_equal(d.face, 2);
+    arrays.points = NULL;
+    assert_int_equal(
+        osdtex_cage_create(*state, &arrays, NULL, &cage),
+        OSDTEX_ERROR_ARGUMENT);
+}
+
+static void
+findings_are_cleared(void **state)
+{
+    osdtex_cage *cage;
+    osdtex_diagnostic d;
+
+    osdtex_cage_read(*state, "nowhere.obj", NULL, &cage);
+    osdtex_cage_read(*state, "nowhere.obj", NULL, &cage);
+    assert_int_equal(osdtex_diagnostic_count(*state), 1);
+    assert_int_equal(osdtex_diagnostic_get(*state, 0, &d), OSDTEX_OK);
+    assert_int_equal(d.count, 2);
+    assert_string_equal(d.file, "nowhere.obj");
+    assert_int_equal(osdtex_diagnostic_clear(*state), OSDTEX_OK);
+    assert_int_equal(osdtex_diagnostic_count(*state), 0);
+    assert_int_equal(
+        osdtex_diagnostic_get(*state, 0, &d), OSDTEX_ERROR_ARGUMENT);
+}
+
+/* The option table and what `osdtex_option_get` says of it agree: the default
+ * of every setting can be set, and what is out of range cannot. */
+static void
+every_setting_takes_its_own_default(void **state)
+{
+    osdtex_method_info method;
+    osdtex_option_info option;
+
+    (void)state;
+    assert_true(osdtex_method_count() > 0);
+    for (int32_t m = 0; m < osdtex_method_count(); ++m)
+    {
+        assert_int_equal(osdtex_method_get(m, &method), OSDTEX_OK);
+        for (int32_t i = 0; i < method.option_count; ++i)
+        {
+            assert_int_equal(osdtex_option_get(m, i, &option), OSDTEX_OK);
+            assert_true(strlen(option.name) > 0 && strlen(option.help) > 0);
+            assert_true(strlen(option.fallback) > 0);
+            assert_int_equal(
+                option.choices != NULL, option.kind == OSDTEX_OPTION_CHOICE);
+        }
+        assert_int_equal(
+            osdtex_option_get(m, method.option_count, &option),
+            OSDTEX_ERROR_ARGUMENT);
+    }
+    assert_int_equal(osdtex_method_get(-1, &method), OSDTEX_ERROR_ARGUMENT);
+    assert_int_equal(
+        osdtex_method_get(osdtex_method_count(), &method),
+        OSDTEX_ERROR_ARGUMENT);
+}
+
+static void
+the_whole_pipe(void **state)
+{
+    const osdtex_mapping_info *mapping;
+    const osdtex_image_info *image;
+    pipe p;
+
+    assert_int_equal(pipe_run(*state, &p), OSDTEX_OK);
+    mapping = osdtex_mapping_describe(p.mapping);
+    for (osdtex_index c = 0; c < 2 * mapping->corner_count; ++c)
+        assert_true(isfinite(mapping->uvs[c]));
+    for (osdtex_index f = 0; f < mapping->face_count; ++f)
+        assert_in_range(mapping->face_patch[f], 0, mapping->patch_count - 1);
+    image = osdtex_image_describe(p.image);
+    assert_int_equal(image->width, 16);
+    assert_int_equal(image->channels, 4);
+    pipe_destroy(&p);
+}
+
+/* An exemplar from memory maps as one from a file does. */
+static void
+an_exemplar_from_pixels(void **state)
+{
+    float pixels[32 * 32 * 3];
+    osdtex_image *image;
+    osdtex_exemplar *exemplar;
+
+    for (int i = 0; i < 32 * 32 * 3; ++i)
+        pixels[i] = (float)((i * 7919) % 101) / 101.0f;
+    assert_int_equal(
+        osdtex_image_create(*state, 32, 32, 3, pixels, &image), OSDTEX_OK);
+    assert_int_equal(
+        osdtex_exemplar_create(*state, image, NULL, &exemplar), OSDTEX_OK);
+    osdtex_image_destroy(image); /* it was copied */
+    assert_memory_equal(
+        osdtex_exemplar_describe(exemplar)->pixels, pixels, sizeof pixels);
+    osdtex_exemplar_destroy(exemplar);
+}
+
+/* Moments to try out of `count`: all of the first few dozen, then ever fewer.
+ */
+static long
+next_moment(long k)
+{
+    return k < 40 ? k + 1 : k + 1 + k / 4;
+}
+
+static void
+failing_allocations_leak_nothing(void **state)
+{
+    (void)state;
+    for (long k = 0;; k = next_moment(k))
+    {
+        meter m = {.fail_at = k, .cancel_at = -1};
+        const osdtex_context_options options = metered(&m);
+        osdtex_context *context;
+        osdtex_status status;
+        pipe p = {0};
+
+        status = osdtex_context_create(&options, &context);
+        if (status == OSDTEX_OK)
+            status = pipe_run(context, &p);
+        pipe_destroy(&p);
+        osdtex_context_destroy(context);
+        assert_int_equal(m.blocks, 0);
+        if (m.calls <= k)
+            return;
+        /* A sentence that could not be kept is no failure. */
+        assert_true(status == OSDTEX_ERROR_MEMORY || status == OSDTEX_OK);
+    }
+}
+
+static void
+cancelling_leaks_nothing(void **state)
+{
+    (void)state;
+    for (long k = 0;; k = next_moment(k))
+    {
+        meter m = {.fail_at = -1, .cancel_at = k};
+        const osdtex_context_options options = metered(&m);
+        osdtex_context *context;
+        osdtex_status status;
+        pipe p;
+
+        assert_int_equal(osdtex_context_create(&options, &context), OSDTEX_OK);
+        status = pipe_run(context, &p);
+        pipe_destroy(&p);
+        osdtex_context_destroy(context);
+        assert_int_equal(m.blocks, 0);
+        if (m.progress_calls <= k)
+        {
+            assert_int_equal(status, OSDTEX_OK);
+            return;
+        }
+        assert_int_equal(status, OSDTEX_ERROR_CANCELLED);
+    }
+}
+
+#define WITH_CONTEXT(test)                                                     \
+    cmocka_unit_test_setup_teardown(test, set_up, tear_down)
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_and_versions),
+        WITH_CONTEXT(null_is_an_argument_or_nothing),
+        WITH_CONTEXT(options_without_a_size_are_refused),
+        WITH_CONTEXT(shorter_options_are_completed),
+        WITH_CONTEXT(a_cube_from_arrays),
+        WITH_CONTEXT(bad_arrays_are_refused_with_a_face),
+        WITH_CONTEXT(findings_are_cleared),
+        cmocka_unit_test(every_setting_takes_its_own_default),
+        WITH_CONTEXT(the_whole_pipe),
+        WITH_CONTEXT(an_exemplar_from_pixels),
+        cmocka_unit_test(failing_allocations_leak_nothing),
+        cmocka_unit_test(cancelling_leaks_nothing),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
