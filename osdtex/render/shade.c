@@ -26,8 +26,13 @@ prepare_textures(otx_run *run, otx_shade *out)
     if (!textures)
         return otx_fail_memory(run, "render");
     for (int32_t i = 0; i < count; ++i)
+    {
+        const otx_scene_texture *from = &out->scene->textures[i];
+
         OTX_TRY(otx_texture_create(
-            run, run->scratch, &out->scene->textures[i], &textures[i]));
+            run, run->scratch, &from->image, from->wrap_x, from->wrap_y,
+            &textures[i]));
+    }
     out->textures = textures;
     return OSDTEX_OK;
 }

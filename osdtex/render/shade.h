@@ -4,7 +4,7 @@
 
 #include "render/light.h"
 #include "render/render.h"
-#include "render/texture.h"
+#include "image/texture.h"
 #include "render/tracer.h"
 
 /* What all samples of a picture share. Lengths are in the tracer's units. */

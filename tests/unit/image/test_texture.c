@@ -1,23 +1,45 @@
 /* test_texture.c -- the filter has the width of the footprint, both ways. */
-#include "render/texture.h"
-#include "scenes.h"
+#include "image/texture.h"
+#include "support.h"
 
 static const otx_vec2 NOTHING = {0.0, 0.0};
+
+/* `size` squared with three channels, uninitialised. */
+static otx_image
+picture_of(otx_run *run, int32_t size)
+{
+    otx_image image;
+
+    assert_int_equal(
+        otx_image_create(run, run->arena, size, size, 3, &image), OSDTEX_OK);
+    return image;
+}
+
+static void
+paint(const otx_image *image, int32_t x, int32_t y, float r, float g, float b)
+{
+    float *p = otx_image_at(image, x, y);
+
+    p[0] = r;
+    p[1] = g;
+    p[2] = b;
+}
 
 /* Stripes one texel wide that vary along x only, and a ramp along y. */
 static otx_texture
 striped_texture(otx_run *run, int32_t size)
 {
-    const otx_scene_texture source = texture_of(run, size, true);
+    const otx_image source = picture_of(run, size);
     otx_texture texture;
 
     for (int32_t y = 0; y < size; ++y)
         for (int32_t x = 0; x < size; ++x)
             paint(
-                &source.image, x, y, (float)(x % 2), (float)(y % 2),
+                &source, x, y, (float)(x % 2), (float)(y % 2),
                 (float)x / (float)size);
     assert_int_equal(
-        otx_texture_create(run, run->arena, &source, &texture), OSDTEX_OK);
+        otx_texture_create(run, run->arena, &source, true, true, &texture),
+        OSDTEX_OK);
     return texture;
 }
 
@@ -49,7 +71,7 @@ static void
 a_slanted_footprint_is_followed(void **state)
 {
     otx_run *run = test_run_create();
-    const otx_scene_texture source = texture_of(run, 64, true);
+    const otx_image source = picture_of(run, 64);
     const double side = sqrt(0.5) / 64.0;
     const otx_vec2 down_the_slope = {10.0 * side, -10.0 * side};
     const otx_vec2 across = {0.6 * side, 0.6 * side};
@@ -60,8 +82,8 @@ a_slanted_footprint_is_followed(void **state)
     /* Diagonal stripes eight texels wide: x + y is constant along them. */
     for (int32_t y = 0; y < 64; ++y)
         for (int32_t x = 0; x < 64; ++x)
-            paint(&source.image, x, y, (float)((x + y) / 8 % 2), 0.0f, 0.0f);
-    otx_texture_create(run, run->arena, &source, &texture);
+            paint(&source, x, y, (float)((x + y) / 8 % 2), 0.0f, 0.0f);
+    otx_texture_create(run, run->arena, &source, true, true, &texture);
     otx_texture_filter(
         &texture, (otx_vec2){0.5 + 1.0 / 64, 0.5 + 1.0 / 64}, across,
         down_the_slope, rgb);
@@ -128,12 +150,12 @@ grey_pictures_are_spread(void **state)
 {
     otx_run *run = test_run_create();
     float pixels[4] = {0.25f, 0.25f, 0.25f, 0.25f};
-    const otx_scene_texture source = {{2, 2, 1, pixels}, false, false};
+    const otx_image source = {2, 2, 1, pixels};
     otx_texture texture;
     float rgb[3];
 
     (void)state;
-    otx_texture_create(run, run->arena, &source, &texture);
+    otx_texture_create(run, run->arena, &source, false, false, &texture);
     otx_texture_filter(&texture, (otx_vec2){0.5, 0.5}, NOTHING, NOTHING, rgb);
     assert_true(rgb[0] == 0.25f && rgb[1] == 0.25f && rgb[2] == 0.25f);
     test_run_destroy(run);
