@@ -132,7 +132,7 @@ class Signals(ProgramTest):
     def stop(self, number, seconds):
         job = subprocess.Popen(
             [PROGRAM, "map", CAGES / "creature.obj", EXEMPLAR, "-o",
-             self.folder / "out.obj", "--level", "5"],
+             self.folder / "out.obj", "--level", "4"],
             stderr=subprocess.PIPE, env=ENVIRONMENT)
         time.sleep(seconds)
         job.send_signal(number)
