@@ -20,7 +20,17 @@ pkg_check_modules(FFTW3F REQUIRED IMPORTED_TARGET fftw3f>=3.3)
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson>=2.13)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash>=0.8)
 
+# CHOLMOD has neither a CMake nor a pkg-config file. Only its simplicial code
+# (LGPL) is called, never the supernodal one (GPL); see osdtex/math/sparse.h.
+find_path(CHOLMOD_INCLUDE_DIR suitesparse/cholmod.h REQUIRED)
+find_library(CHOLMOD_LIBRARY NAMES cholmod REQUIRED)
+add_library(osdtex_dep_cholmod UNKNOWN IMPORTED)
+set_target_properties(osdtex_dep_cholmod PROPERTIES
+  IMPORTED_LOCATION "${CHOLMOD_LIBRARY}"
+  INTERFACE_INCLUDE_DIRECTORIES "${CHOLMOD_INCLUDE_DIR}")
+
 set(OSDTEX_LIBRARIES
-  osdtex_dep_osd OpenEXR::OpenEXRCore embree PNG::PNG TIFF::TIFF JPEG::JPEG
+  osdtex_dep_osd osdtex_dep_cholmod OpenEXR::OpenEXRCore embree PNG::PNG
+  TIFF::TIFF JPEG::JPEG
   PkgConfig::OCIO PkgConfig::FFTW3F PkgConfig::JANSSON PkgConfig::XXHASH
   Threads::Threads m)

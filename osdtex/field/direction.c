@@ -1,0 +1,437 @@
+/* direction.c -- the smoothest direction field, or the one that is asked for.
+ */
+#include "field/direction.h"
+
+#include "math/sparse.h"
+
+enum
+{
+    EIGEN_ROUNDS = 24, /* inverse iterations */
+    UNIT_ROUNDS = 40   /* of smoothing and normalising, at most */
+};
+
+/* Largest change of a unit number at which the rounds end. */
+static const double SETTLED = 1e-4;
+
+/* tau = SMOOTHING / area: the reciprocal square of the length over which one
+ * round smooths, about the radius of a sphere of that area. */
+static const double SMOOTHING = 4.0 * OTX_PI;
+
+/* A part of the guide shorter than this says nothing. */
+static const double UPRIGHT = 1e-3;
+
+typedef struct solver
+{
+    otx_run *run;
+    const otx_connection *c;
+    const otx_direction_request *request;
+    otx_direction *field;
+    int32_t *row;    /* [face_count] unknown of a face, -1 locked */
+    int32_t *faces;  /* [size] face of an unknown */
+    int32_t size;    /* unknowns */
+    double tau;      /* 1 / length^2 */
+    double *mass;    /* [size] areas */
+    double *pull;    /* [2 size] what pins, locked faces and guide add */
+    double *z;       /* [2 size] */
+    otx_sparse *lhs; /* Laplacian + tau mass + guide */
+} solver;
+
+/* s-th power of a vector of the plane, its length kept. */
+static otx_vec2
+raise(otx_vec2 v, int32_t symmetry)
+{
+    const double length = otx_vec2_length(v);
+    const otx_vec2 unit =
+        length > 0.0 ? otx_vec2_scale(1.0 / length, v) : (otx_vec2){0, 0};
+    otx_vec2 power = unit;
+
+    for (int32_t k = 1; k < symmetry; ++k)
+        power = otx_vec2_mul(power, unit);
+    return otx_vec2_scale(length, power);
+}
+
+static otx_vec2
+unit_or(otx_vec2 z, otx_vec2 otherwise)
+{
+    const double length = otx_vec2_length(z);
+
+    return length > 0.0 && isfinite(length) ? otx_vec2_scale(1.0 / length, z)
+                                            : otherwise;
+}
+
+double
+otx_direction_turn(const otx_direction *field, int32_t edge)
+{
+    const otx_connection *c = field->connection;
+    const int32_t *faces = c->level->edge_faces + 2 * (size_t)edge;
+    const otx_vec2 carried = otx_vec2_mul(
+        otx_vec2_polar(field->symmetry * c->turns[edge]),
+        field->powers[faces[0]]);
+    const otx_vec2 to = field->powers[faces[1]];
+
+    return atan2(otx_vec2_cross(carried, to), otx_vec2_dot(carried, to)) /
+           field->symmetry;
+}
+
+/* -- assembling ---------------------------------------------------------- */
+
+static otx_status
+bad_pin(const solver *s, int32_t pin, const char *what)
+{
+    const int32_t face = s->request->pins[pin].face;
+    const bool known = face >= 0 && face < s->c->level->face_count;
+
+    return otx_fail(
+        s->run, OSDTEX_ERROR_ARGUMENT, "field",
+        (otx_where){
+            s->c->surface->cage->path, 0,
+            known ? s->c->level->face_cage[face] : -1, -1},
+        "direction constraint %d %s", (int)pin + 1, what);
+}
+
+/* Locks the pinned faces to their vectors. */
+static otx_status
+lock_pins(solver *s)
+{
+    for (int32_t p = 0; p < s->request->pin_count; ++p)
+    {
+        const otx_direction_pin *pin = &s->request->pins[p];
+        otx_vec2 flat;
+
+        if (pin->face < 0 || pin->face >= s->c->level->face_count)
+            return bad_pin(s, p, "names a face that is not there");
+        if (s->c->level->face_hole[pin->face])
+            return bad_pin(s, p, "lies on a hole");
+        if (!isfinite(pin->vector.x) || !isfinite(pin->vector.y) ||
+            !isfinite(pin->vector.z))
+            return bad_pin(s, p, "has a vector that is not finite");
+        flat =
+            otx_connection_project(s->c, pin->face, otx_vec3_unit(pin->vector));
+        if (!(otx_vec2_length(flat) > UPRIGHT))
+            return bad_pin(
+                s, p,
+                "has a vector that stands upright on the surface; give one "
+                "along it");
+        s->row[pin->face] = -1;
+        s->field->powers[pin->face] =
+            unit_or(raise(flat, s->request->symmetry), (otx_vec2){1, 0});
+    }
+    return OSDTEX_OK;
+}
+
+static otx_status
+number_unknowns(solver *s, const uint8_t *effect)
+{
+    const int32_t count = s->c->level->face_count;
+
+    s->row = OTX_NEW(s->run->scratch, int32_t, count);
+    s->faces = OTX_NEW(s->run->scratch, int32_t, count);
+    if (!s->row || !s->faces)
+        return otx_fail_memory(s->run, "field");
+    for (int32_t f = 0; f < count; ++f)
+        s->row[f] =
+            s->c->level->face_hole[f] || (effect && !effect[f]) ? -1 : 0;
+    OTX_TRY(lock_pins(s));
+    for (int32_t f = 0; f < count; ++f)
+        if (s->row[f] >= 0)
+        {
+            s->faces[s->size] = f;
+            s->row[f] = s->size++;
+        }
+    s->mass = OTX_NEW(s->run->scratch, double, s->size + 1);
+    s->pull = OTX_ZNEW(s->run->scratch, double, 2 * s->size + 2);
+    s->z = OTX_ZNEW(s->run->scratch, double, 2 * s->size + 2);
+    if (!s->mass || !s->pull || !s->z)
+        return otx_fail_memory(s->run, "field");
+    return OSDTEX_OK;
+}
+
+/* Adds the term of one edge, to unknown rows or to the right side. */
+static int64_t
+add_edge(solver *s, int32_t edge, otx_sparse_entry *entries)
+{
+    const int32_t *faces = s->c->level->edge_faces + 2 * (size_t)edge;
+    const int32_t f = s->row[faces[0]], g = s->row[faces[1]];
+    const double w = s->c->weights[edge];
+    const otx_vec2 r = otx_vec2_polar(s->request->symmetry * s->c->turns[edge]);
+    int64_t count = 0;
+
+    if (f >= 0)
+        entries[count++] = (otx_sparse_entry){f, f, w, 0.0};
+    if (g >= 0)
+        entries[count++] = (otx_sparse_entry){g, g, w, 0.0};
+    if (f >= 0 && g >= 0)
+        /* Row g has -w r, row f its conjugate; the lower one is stored. */
+        entries[count++] = g > f ? (otx_sparse_entry){g, f, -w * r.x, -w * r.y}
+                                 : (otx_sparse_entry){f, g, -w * r.x, w * r.y};
+    else if (f >= 0 || g >= 0)
+    {
+        const otx_vec2 from = s->field->powers[faces[f >= 0]];
+        const otx_vec2 turn = f >= 0 ? (otx_vec2){r.x, -r.y} : r;
+        const otx_vec2 z = otx_vec2_mul(turn, from);
+        double *to = s->pull + 2 * (size_t)(f >= 0 ? f : g);
+
+        to[0] += w * z.x;
+        to[1] += w * z.y;
+    }
+    return count;
+}
+
+/* The diagonal of an unknown, and the guide's pull: as strong as the vector's
+ * part in the face is long. */
+static otx_sparse_entry
+add_face(solver *s, int32_t row)
+{
+    const otx_direction_request *q = s->request;
+    const int32_t face = s->faces[row];
+    const double area = fmax(s->c->areas[face], 1e-12 * s->c->area);
+    const otx_vec2 flat =
+        otx_connection_project(s->c, face, otx_vec3_unit(q->guide));
+    const double length = otx_vec2_length(flat);
+    double weight = 0.0;
+
+    s->mass[row] = area;
+    if (length > UPRIGHT)
+    {
+        const otx_vec2 z = raise(flat, q->symmetry);
+
+        weight = area / (q->guide_length * q->guide_length);
+        s->pull[2 * row] += weight * z.x;
+        s->pull[2 * row + 1] += weight * z.y;
+        weight *= length;
+    }
+    return (otx_sparse_entry){row, row, weight + s->tau * area, 0.0};
+}
+
+static otx_status
+factor(solver *s)
+{
+    const int32_t edges = s->c->level->edge_count;
+    otx_sparse_entry *entries = OTX_NEW(
+        s->run->scratch, otx_sparse_entry, 3 * (int64_t)edges + s->size);
+    int64_t count = 0;
+    otx_status status;
+
+    if (!entries)
+        return otx_fail_memory(s->run, "field");
+    s->tau = SMOOTHING / s->c->area;
+    for (int32_t e = 0; e < edges; ++e)
+        if (s->c->inner[e])
+            count += add_edge(s, e, entries + count);
+    for (int32_t i = 0; i < s->size; ++i)
+        entries[count++] = add_face(s, i);
+    status = otx_sparse_factor(
+        s->run->scratch, OTX_SPARSE_COMPLEX, s->size, entries, count, &s->lhs);
+    if (status == OSDTEX_ERROR_MEMORY)
+        return otx_fail_memory(s->run, "field");
+    if (status != OSDTEX_OK)
+        return otx_fail(
+            s->run, status, "field", OTX_NOWHERE,
+            "the direction field has no solution: the surface has faces "
+            "without area or with positions that are not finite");
+    return OSDTEX_OK;
+}
+
+/* -- solving ------------------------------------------------------------- */
+
+static otx_vec2
+leaning(const solver *s, int32_t face)
+{
+    const otx_vec3 lean = s->request->lean;
+    const otx_vec3 up = otx_vec3_dot(lean, lean) > 0.0 ? otx_vec3_unit(lean)
+                                                       : (otx_vec3){0, 1, 0};
+    otx_vec2 flat = otx_connection_project(s->c, face, up);
+
+    /* A little of another axis, where the first is upright. */
+    flat = otx_vec2_add(
+        flat, otx_vec2_scale(
+                  0.01, otx_connection_project(
+                            s->c, face, (otx_vec3){up.y, up.z, up.x})));
+    return raise(flat, s->request->symmetry);
+}
+
+/* Lets pins and guide have their say before the first rounds: what they reach
+ * follows them, the rest keeps the smoothest field. */
+static otx_status
+follow_pull(solver *s)
+{
+    double pulled = 0.0;
+
+    for (int32_t i = 0; i < 2 * s->size; ++i)
+        pulled = fmax(pulled, fabs(s->pull[i]));
+    if (!(pulled > 0.0))
+        return OSDTEX_OK;
+    for (int32_t i = 0; i < 2 * s->size; ++i)
+        s->z[i] = 1e-3 * s->tau * s->mass[i / 2] * s->z[i] + s->pull[i];
+    return otx_sparse_solve(s->lhs, s->z, s->z);
+}
+
+/* A start for the rounds below: the smoothest field, or, for an edit, what is
+ * there. */
+static otx_status
+begin(solver *s, bool edit)
+{
+    otx_status status;
+
+    for (int32_t i = 0; i < s->size; ++i)
+    {
+        const otx_vec2 z =
+            edit ? s->field->powers[s->faces[i]] : leaning(s, s->faces[i]);
+
+        s->z[2 * i] = z.x;
+        s->z[2 * i + 1] = z.y;
+    }
+    if (edit)
+        return OSDTEX_OK;
+    status = otx_sparse_smallest(s->lhs, s->mass, EIGEN_ROUNDS, s->z);
+    if (status != OSDTEX_OK)
+        return otx_fail(
+            s->run, status, "field", OTX_NOWHERE,
+            "the direction field did not converge");
+    return follow_pull(s);
+}
+
+/* Makes all numbers unit; how much the most changed one moved from `old`. */
+static double
+normalise(solver *s, double *old)
+{
+    double most = 0.0;
+
+    for (int32_t i = 0; i < s->size; ++i)
+    {
+        const otx_vec2 z = unit_or(
+            (otx_vec2){s->z[2 * i], s->z[2 * i + 1]},
+            unit_or(leaning(s, s->faces[i]), (otx_vec2){1, 0}));
+
+        most = fmax(most, fabs(z.x - old[2 * i]));
+        most = fmax(most, fabs(z.y - old[2 * i + 1]));
+        old[2 * i] = s->z[2 * i] = z.x;
+        old[2 * i + 1] = s->z[2 * i + 1] = z.y;
+    }
+    return most;
+}
+
+static otx_status
+smooth(solver *s)
+{
+    for (int32_t i = 0; i < 2 * s->size; ++i)
+        s->z[i] = s->tau * s->mass[i / 2] * s->z[i] + s->pull[i];
+    return otx_sparse_solve(s->lhs, s->z, s->z);
+}
+
+static otx_status
+solve(solver *s, const uint8_t *effect)
+{
+    double *old;
+
+    OTX_TRY(number_unknowns(s, effect));
+    if (s->size == 0)
+        return OSDTEX_OK;
+    OTX_TRY(factor(s));
+    OTX_TRY(begin(s, effect != NULL));
+    old = OTX_ZNEW(s->run->scratch, double, 2 * (int64_t)s->size);
+    if (!old)
+        return otx_fail_memory(s->run, "field");
+    normalise(s, old);
+    for (int round = 0; round < UNIT_ROUNDS; ++round)
+    {
+        if (smooth(s) != OSDTEX_OK)
+            return otx_fail_memory(s->run, "field");
+        if (normalise(s, old) < SETTLED)
+            break;
+        OTX_TRY(otx_progress(s->run, "field", (round + 1.0) / UNIT_ROUNDS));
+    }
+    for (int32_t i = 0; i < s->size; ++i)
+        s->field->powers[s->faces[i]] =
+            (otx_vec2){s->z[2 * i], s->z[2 * i + 1]};
+    return OSDTEX_OK;
+}
+
+static otx_status
+check(otx_run *run, const otx_direction_request *q)
+{
+    if (q->symmetry != 1 && q->symmetry != 2 && q->symmetry != 4)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "field", OTX_NOWHERE,
+            "a direction field has symmetry 1, 2 or 4, not %d",
+            (int)q->symmetry);
+    if (!isfinite(otx_vec3_length(q->guide)) ||
+        !isfinite(otx_vec3_length(q->lean)) ||
+        (otx_vec3_length(q->guide) > 0.0 && !(q->guide_length > 0.0)))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "field", OTX_NOWHERE,
+            "the axis of a direction field is a finite vector, and the length "
+            "over which it gives way is positive");
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_direction_solve(
+    otx_run *run, const otx_connection *connection,
+    const otx_direction_request *request, otx_direction *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const int32_t count = connection->level->face_count;
+    solver s = {.run = run, .c = connection, .request = request, .field = out};
+    otx_status status;
+
+    OTX_TRY(check(run, request));
+    *out = (otx_direction){
+        connection, request->symmetry, OTX_NEW(run->arena, otx_vec2, count)};
+    if (!out->powers)
+        return otx_fail_memory(run, "field");
+    for (int32_t f = 0; f < count; ++f)
+        out->powers[f] = (otx_vec2){1, 0};
+    status = solve(&s, NULL);
+    otx_arena_release(run->scratch, mark);
+    return status;
+}
+
+otx_status
+otx_direction_edit(
+    otx_run *run, const otx_direction_request *request, const uint8_t *effect,
+    otx_direction *field)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    solver s = {
+        .run = run, .c = field->connection, .request = request, .field = field};
+    otx_status status;
+
+    OTX_TRY(check(run, request));
+    if (request->symmetry != field->symmetry)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "field", OTX_NOWHERE,
+            "an edit keeps the symmetry of the field");
+    status = solve(&s, effect);
+    otx_arena_release(run->scratch, mark);
+    return status;
+}
+
+otx_status
+otx_direction_refine(
+    otx_run *run, const otx_direction *field, const otx_connection *finer,
+    otx_direction *out)
+{
+    const otx_surface *surface = finer->surface;
+    const int32_t from = field->connection->level_index;
+
+    *out = (otx_direction){
+        finer, field->symmetry,
+        OTX_NEW(run->arena, otx_vec2, finer->level->face_count)};
+    if (!out->powers)
+        return otx_fail_memory(run, "field");
+    for (int32_t f = 0; f < finer->level->face_count; ++f)
+    {
+        int32_t parent = f;
+
+        for (int32_t l = finer->level_index; l > from; --l)
+            parent = surface->levels[l].face_parent[parent];
+        out->powers[f] = unit_or(
+            raise(
+                otx_connection_project(
+                    finer, f, otx_direction_vector(field, parent)),
+                field->symmetry),
+            (otx_vec2){1, 0});
+    }
+    return OSDTEX_OK;
+}
