@@ -21,6 +21,9 @@ typedef struct otx_chart
     int32_t *verts; /* [vert_count] leaf vertices */
     otx_vec2 *flat; /* [vert_count] texels */
     float *reach;   /* [face_count] distance from the core, texels; 0 in it */
+    /* [vert_count] the same of the vertices; NULL where charts are joint and
+     * only faces have it. */
+    float *vert_reach;
 
     /* How flat the core came out: area-weighted RMS of the larger of stretch
      * and its inverse over the core's faces; INFINITY when one is flipped. */

@@ -24,6 +24,28 @@ mask_weight(double reach, double band, double collar)
     return fmax(0.05, 1.0 - (reach - band) / fmax(collar - band, 1.0)) * 0.5;
 }
 
+/* Where vertices have position values the mask is the paper's: all of the band
+ * and nothing else. Elsewhere the triangle as it is. */
+static int32_t
+add_triangle(
+    const otx_chart *chart, otx_mask_triangle *t, int32_t first,
+    const int32_t at[3], double band, otx_mask_triangle *out)
+{
+    double reach[3];
+
+    if (!chart->vert_reach)
+    {
+        *out = *t;
+        return 1;
+    }
+    for (int j = 0; j < 3; ++j)
+    {
+        reach[j] = chart->vert_reach[chart->corners[first + at[j]]];
+        t->weight[j] = 1.0f;
+    }
+    return otx_band_clip(t, reach, band, out);
+}
+
 /* The collar's textured faces as mask triangles in the run's scratch. */
 static otx_status
 make_mask(otx_mapper *m, const otx_node *node, otx_mask *out)
@@ -33,8 +55,10 @@ make_mask(otx_mapper *m, const otx_node *node, otx_mask *out)
     const double size = m->texels * sqrt(node->cluster.area);
     const double band = fmin(32.0, fmax(4.0, m->settings.band * size));
     const double collar = fmax(band, m->settings.collar * size);
+    /* A triangle that is cut leaves two. */
     otx_mask_triangle *triangles = OTX_NEW(
-        m->run->scratch, otx_mask_triangle, chart->first[chart->face_count]);
+        m->run->scratch, otx_mask_triangle,
+        2 * (int64_t)chart->first[chart->face_count]);
     int32_t count = 0;
 
     if (!triangles)
@@ -51,14 +75,16 @@ make_mask(otx_mapper *m, const otx_node *node, otx_mask *out)
         for (int32_t k = 1; k + 1 < chart->first[i + 1] - first; ++k)
         {
             const int32_t at[3] = {0, k, k + 1};
-            otx_mask_triangle *t = &triangles[count++];
+            otx_mask_triangle t;
 
             for (int j = 0; j < 3; ++j)
             {
-                t->flat[j] = chart->flat[chart->corners[first + at[j]]];
-                t->source[j] = m->uvs[corner + at[j]];
-                t->weight[j] = weight;
+                t.flat[j] = chart->flat[chart->corners[first + at[j]]];
+                t.source[j] = m->uvs[corner + at[j]];
+                t.weight[j] = weight;
             }
+            count +=
+                add_triangle(chart, &t, first, at, band, triangles + count);
         }
     }
     *out = (otx_mask){triangles, count};
@@ -303,6 +329,9 @@ otx_fit_node(otx_mapper *m, int32_t index, bool *accepted)
     else
         OTX_TRY(
             search(m, index, &mask, middle, points, point_count, best, &count));
+    if (m->settings.relax == OTX_HIERARCHICAL_RELAX_LOOP && count > 0 &&
+        mask.triangle_count > 0)
+        OTX_TRY(otx_loop_relax(m, index, best, count, &best[0]));
     *accepted = count > 0 && (best[0].error <= m->settings.tau ||
                               !otx_nodes_can_split(m, node));
     if (*accepted)

@@ -137,6 +137,23 @@ otx_status otx_nodes_split(otx_mapper *m, int32_t node);
  *             when it fits nowhere */
 otx_status otx_fit_node(otx_mapper *m, int32_t node, bool *accepted);
 
+/* band.c: cuts a mask triangle where it leaves the band.
+ *
+ *   reach  of its corners, in the unit of limit
+ *   out    what is left, 0 to 2 triangles; the count is returned */
+int32_t otx_band_clip(
+    const otx_mask_triangle *triangle, const double reach[3], double limit,
+    otx_mask_triangle out[2]);
+
+/* loop.c: relaxes the placements of an unfitted node and bends its chart by
+ * the best one.
+ *
+ *   count  of placed, at least 1
+ *   best   with the error that is left along the border; may be &placed[0] */
+otx_status otx_loop_relax(
+    otx_mapper *m, int32_t node, const otx_match *placed, int32_t count,
+    otx_match *best);
+
 /* assemble.c: cut, relaxation, and the mapping that is handed out. */
 otx_status otx_assemble(otx_mapper *m, otx_mapping *out);
 

@@ -6,6 +6,8 @@
  */
 #include "method/hierarchical/hierarchical.h"
 
+#include "flatten/recursive.h"
+
 #include <string.h>
 
 /* A patch is at least about this many faces of the level it is grown from. */
@@ -186,6 +188,13 @@ flatten_node(void *context, int64_t index, otx_worker *worker)
     node->arena = otx_arena_create(m->run->heap);
     if (!node->arena)
         return OSDTEX_ERROR_MEMORY;
+    /* A cluster of several faces has no control polygon of its own. */
+    if (m->settings.flatten == OTX_HIERARCHICAL_RECURSIVE &&
+        node->cluster.face_count == 1)
+        return otx_recursive_build(
+            &request, node->cluster.level, node->cluster.faces[0],
+            &m->spaces[worker->index], worker->scratch, node->arena,
+            &node->chart);
     return otx_chart_build(
         &request, node->leaves, node->leaf_count, &m->spaces[worker->index],
         worker->scratch, node->arena, &node->chart);

@@ -1,0 +1,81 @@
+/* loop.c -- relaxation of a patch as it is placed [Soler02, sec. 4.4].
+ *
+ * The best match of the mask is often not the best once the patch has been
+ * bent, so several placements are relaxed and compared by what is left along
+ * the border. The winner's bend goes into the chart: from there on the patch
+ * is a chart like any other, rigidly placed. */
+#include "method/hierarchical/hierarchical.h"
+
+#include "base/random.h"
+#include "relax/nudge.h"
+
+#include <string.h>
+
+enum
+{
+    STAGE_NUDGE = 0x6e756467
+};
+
+/* Chart to exemplar. */
+static void
+place_chart(const otx_chart *chart, otx_match placed, otx_vec2 *uv)
+{
+    const otx_vec2 turn = otx_vec2_polar(placed.angle);
+
+    for (int32_t v = 0; v < chart->vert_count; ++v)
+        uv[v] = otx_vec2_add(otx_vec2_mul(turn, chart->flat[v]), placed.shift);
+}
+
+/* Exemplar to chart. */
+static void
+keep_bend(otx_chart *chart, otx_match placed, const otx_vec2 *uv)
+{
+    const otx_vec2 back = otx_vec2_polar(-placed.angle);
+
+    for (int32_t v = 0; v < chart->vert_count; ++v)
+        chart->flat[v] = otx_vec2_mul(back, otx_vec2_sub(uv[v], placed.shift));
+}
+
+otx_status
+otx_loop_relax(
+    otx_mapper *m, int32_t index, const otx_match *placed, int32_t count,
+    otx_match *best)
+{
+    const otx_arena_mark mark = otx_arena_here(m->run->scratch);
+    otx_node *node = &m->nodes[index];
+    const int32_t verts = node->chart.vert_count;
+    otx_vec2 *uv = OTX_NEW(m->run->scratch, otx_vec2, verts);
+    otx_vec2 *kept = OTX_NEW(m->run->scratch, otx_vec2, verts);
+    otx_nudge_request request = {
+        .surface = m->surface,
+        .exemplar = m->exemplar,
+        .texels = m->texels,
+        .face_patch = m->face_patch,
+        .uvs = m->uvs,
+    };
+    double least = INFINITY;
+
+    if (!uv || !kept)
+        return otx_fail_memory(m->run, "map");
+    for (int32_t i = 0; i < count; ++i)
+    {
+        const uint64_t element = (uint64_t)index * 16u + (uint64_t)i;
+        double error;
+
+        request.seed = otx_random_bits(m->run->seed, STAGE_NUDGE, element);
+        place_chart(&node->chart, placed[i], uv);
+        if (otx_nudge_run(
+                &request, &node->cluster, &node->chart, m->spaces[0].vert_slot,
+                m->run->scratch, uv, &error) != OSDTEX_OK)
+            return otx_fail_memory(m->run, "map");
+        if (!(error < least))
+            continue;
+        least = error;
+        *best = placed[i];
+        memcpy(kept, uv, (size_t)verts * sizeof *uv);
+    }
+    best->error = least;
+    keep_bend(&node->chart, *best, kept);
+    otx_arena_release(m->run->scratch, mark);
+    return OSDTEX_OK;
+}
