@@ -16,6 +16,11 @@ CAGES = ROOT / "models" / "cages"
 EXEMPLARS = ROOT / "models" / "exemplars"
 SHARED = ROOT.parent / "shared" / "data"
 
+# A sanitizer makes everything several times slower and larger, so times and
+# memory are judged without.
+SANITIZED = "__asan_init" in subprocess.run(
+    ["nm", "-D", PROGRAM], capture_output=True, text=True).stdout
+
 # Nothing of the caller's environment may change what a test sees.
 ENVIRONMENT = {
     k: v for k, v in os.environ.items()

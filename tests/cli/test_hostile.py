@@ -11,7 +11,8 @@ import subprocess
 import time
 
 from program import (
-    CAGES, ENVIRONMENT, EXEMPLARS, PROGRAM, SHARED, ProgramTest, main)
+    CAGES, ENVIRONMENT, EXEMPLARS, PROGRAM, SANITIZED, SHARED, ProgramTest,
+    main)
 
 HOSTILE = SHARED / "hostile"
 SECONDS = 10
@@ -19,10 +20,6 @@ BYTES = 2 << 30
 
 CAGE = CAGES / "plane.obj"
 EXEMPLAR = EXEMPLARS / "gravel_tile.png"
-
-# A sanitizer reserves terabytes of addresses.
-SANITIZED = "__asan_init" in subprocess.run(
-    ["nm", "-D", PROGRAM], capture_output=True, text=True).stdout
 
 
 def files():

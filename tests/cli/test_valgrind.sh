@@ -8,7 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 # Threads are looked at by the sanitizers; here one is faster.
 check="valgrind -q --error-exitcode=9 --leak-check=full
-    --errors-for-leak-kinds=definite"
+    --errors-for-leak-kinds=definite --show-leak-kinds=definite"
 
 $check "$program" map models/cages/plane.obj models/exemplars/gravel_tile.png \
     -o "$work/out.obj" --level 1 --scale 4 --threads 1 -q \
