@@ -1,10 +1,12 @@
-/* bench_match.c -- see bench_match.h.
+/* bench_match.c -- the masked search against the transforms it is made of.
  *
  * The floor is 19 x (4 forward + 1 inverse) of FFTW's own two-dimensional real
  * transforms, planned with FFTW_ESTIMATE like ours: what the search would cost
  * if drawing masks, products and looking for minima were free, and no row of
- * the mask were known to be empty. One thread for both. */
-#include "bench/bench_match.h"
+ * the mask were known to be empty. */
+#include "bench/bench_row.h"
+#include "bench/match_scene.h"
+#include "bench/stopwatch.h"
 
 #include "base/random.h"
 #include "match/exhaust.h"
@@ -12,243 +14,184 @@
 #include <fftw3.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 enum
 {
-    ORIENTATIONS = 19,
-    TRIANGLES = 2 * 4 * 24
+    PLANES = 4,
+    USUAL_TURNS = 9,
+    LANES = 6
 };
 
-/* Time of the processor for what runs in one thread, so that a busy machine
- * does not distort the ratio; time of the wall for what runs in two. */
-static double
-now_ms(clockid_t clock)
+static const int32_t SIZES[] = {128, 256, 480, 512};
+
+enum
 {
-    struct timespec t;
+    SIZE_COUNT = sizeof SIZES / sizeof SIZES[0]
+};
 
-    clock_gettime(clock, &t);
-    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
-}
+/* -- floor --------------------------------------------------------------- */
 
-/* ---------------------------------------------------------------- scene */
-
-/* Smooth blobs of several sizes, tiling. */
-static void
-fill_exemplar(otx_image *image)
+typedef struct transforms
 {
-    const int32_t n = image->width;
-
-    for (int32_t y = 0; y < n; ++y)
-        for (int32_t x = 0; x < n; ++x)
-            for (int32_t c = 0; c < 3; ++c)
-            {
-                double sum = 0.0;
-
-                for (int32_t cell = 4; cell <= 16; cell *= 2)
-                {
-                    const int32_t i = x / cell, j = y / cell;
-                    const double u = (double)(x % cell) / cell;
-                    const double v = (double)(y % cell) / cell;
-                    double corner[2][2];
-
-                    for (int32_t k = 0; k < 4; ++k)
-                        corner[k / 2][k % 2] = otx_random_unit(
-                            (uint64_t)cell, (uint32_t)c,
-                            (uint64_t)((j + k / 2) % (n / cell) * n + (i + k % 2) % (n / cell)));
-                    sum +=
-                        (1 - v) * ((1 - u) * corner[0][0] + u * corner[0][1]) +
-                        v * ((1 - u) * corner[1][0] + u * corner[1][1]);
-                }
-                otx_image_at(image, x, y)[c] = (float)(sum / 3.0);
-            }
-}
-
-/* A collar a quarter of the exemplar wide around an empty square, `width`
- * texels thick: 24 quads on each side, textured from two places. */
-static void
-fill_mask(otx_mask_triangle *triangles, double size, double width)
-{
-    int32_t count = 0;
-
-    for (int32_t side = 0; side < 4; ++side)
-        for (int32_t k = 0; k < 24; ++k)
-            for (int32_t half = 0; half < 2; ++half)
-            {
-                static const double corners[2][3][2] = {
-                    {{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
-                otx_mask_triangle *t = &triangles[count++];
-
-                for (int c = 0; c < 3; ++c)
-                {
-                    const otx_vec2 p = {
-                        -0.5 * size +
-                            (size - width) * (k + corners[half][c][0]) / 24.0,
-                        -0.5 * size + width * corners[half][c][1]};
-
-                    t->flat[c] =
-                        otx_vec2_mul(otx_vec2_polar(0.5 * OTX_PI * side), p);
-                    t->source[c] = otx_vec2_add(
-                        otx_vec2_mul(
-                            otx_vec2_polar(side < 2 ? 0.3 : 2.2), t->flat[c]),
-                        (otx_vec2){1.3 * size, side < 2 ? 0.4 : size});
-                    t->weight[c] = 1.0f;
-                }
-            }
-}
-
-/* ---------------------------------------------------------------- floor */
-
-static double
-time_floor(int32_t n, int32_t repeats)
-{
-    const size_t complex_count = (size_t)n * ((size_t)n / 2 + 1);
-    float *real[4], *map = fftwf_alloc_real((size_t)n * (size_t)n);
-    fftwf_complex *spectrum[4];
-    fftwf_plan forward[4], inverse;
-    const clockid_t clock = CLOCK_THREAD_CPUTIME_ID;
-    double best = INFINITY;
-
-    for (int p = 0; p < 4; ++p)
-    {
-        real[p] = fftwf_alloc_real((size_t)n * (size_t)n);
-        spectrum[p] = fftwf_alloc_complex(complex_count);
-        memset(real[p], 0, (size_t)n * (size_t)n * sizeof(float));
-        forward[p] =
-            fftwf_plan_dft_r2c_2d(n, n, real[p], spectrum[p], FFTW_ESTIMATE);
-    }
-    inverse = fftwf_plan_dft_c2r_2d(n, n, spectrum[0], map, FFTW_ESTIMATE);
-    for (int32_t r = 0; r < repeats; ++r)
-    {
-        const double start = now_ms(clock);
-
-        for (int a = 0; a < ORIENTATIONS; ++a)
-        {
-            for (int p = 0; p < 4; ++p)
-                fftwf_execute(forward[p]);
-            fftwf_execute(inverse);
-        }
-        best = fmin(best, now_ms(clock) - start);
-    }
-    for (int p = 0; p < 4; ++p)
-    {
-        fftwf_destroy_plan(forward[p]);
-        fftwf_free(real[p]);
-        fftwf_free(spectrum[p]);
-    }
-    fftwf_destroy_plan(inverse);
-    fftwf_free(map);
-    return best;
-}
-
-/* ---------------------------------------------------------------- bench */
-
-typedef struct scene
-{
-    otx_run run;
-    otx_matcher *matcher;
-    otx_mask_triangle triangles[TRIANGLES];
-    otx_mask mask;
-    double angles[ORIENTATIONS];
-} scene;
+    float *real[PLANES], *map;
+    fftwf_complex *spectrum[PLANES];
+    fftwf_plan forward[PLANES], inverse;
+} transforms;
 
 static void
-scene_close(scene *s)
+transforms_open(transforms *t, int32_t n)
 {
-    otx_heap *heap = s->run.heap;
+    const size_t reals = (size_t)n * (size_t)n;
+    const size_t complexes = (size_t)n * ((size_t)n / 2 + 1);
 
-    otx_arena_destroy(s->run.scratch);
-    otx_arena_destroy(s->run.arena);
-    otx_pool_destroy(s->run.pool);
-    otx_diagnostics_destroy(s->run.diagnostics);
-    otx_heap_destroy(heap);
+    t->map = fftwf_alloc_real(reals);
+    for (int p = 0; p < PLANES; ++p)
+    {
+        t->real[p] = fftwf_alloc_real(reals);
+        t->spectrum[p] = fftwf_alloc_complex(complexes);
+        memset(t->real[p], 0, reals * sizeof(float));
+        t->forward[p] = fftwf_plan_dft_r2c_2d(
+            n, n, t->real[p], t->spectrum[p], FFTW_ESTIMATE);
+    }
+    t->inverse =
+        fftwf_plan_dft_c2r_2d(n, n, t->spectrum[0], t->map, FFTW_ESTIMATE);
+}
+
+static void
+transforms_close(transforms *t)
+{
+    for (int p = 0; p < PLANES; ++p)
+    {
+        fftwf_destroy_plan(t->forward[p]);
+        fftwf_free(t->real[p]);
+        fftwf_free(t->spectrum[p]);
+    }
+    fftwf_destroy_plan(t->inverse);
+    fftwf_free(t->map);
 }
 
 static otx_status
-scene_open(scene *s, int32_t n)
+run_transforms(void *context)
 {
-    otx_heap *heap = otx_heap_create(NULL);
-    otx_image image = {n, n, 3, NULL};
+    const transforms *t = context;
 
-    *s = (scene){
-        .run = {
-            .heap = heap,
-            .arena = otx_arena_create(heap),
-            .scratch = otx_arena_create(heap),
-            .pool = otx_pool_create(heap, 2),
-            .diagnostics = otx_diagnostics_create(heap)}};
-    image.pixels = OTX_NEW(s->run.arena, float, (size_t)n *(size_t)n * 3);
-    if (!image.pixels)
-        return OSDTEX_ERROR_MEMORY;
-    fill_exemplar(&image);
-    fill_mask(s->triangles, 0.45 * n, 0.1 * n);
-    s->mask = (otx_mask){s->triangles, TRIANGLES};
-    for (int a = 0; a < ORIENTATIONS; ++a)
-        s->angles[a] = 0.11 + 2.0 * OTX_PI * a / ORIENTATIONS;
-    return otx_matcher_create(&s->run, &image, true, true, 0.3, 0, &s->matcher);
-}
-
-/* Best of `repeats`; `threads` 1 is the serial search. */
-static double
-time_search(
-    scene *s, int32_t levels, bool threads, int32_t repeats, otx_match *best)
-{
-    otx_match_query query = otx_match_query_defaults(s->angles, ORIENTATIONS);
-    const clockid_t clock = threads ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID;
-    double fastest = INFINITY;
-    int32_t count;
-
-    query.coarse_levels = levels;
-    for (int32_t r = 0; r < repeats; ++r)
+    for (int a = 0; a < BENCH_ORIENTATIONS; ++a)
     {
-        const double start = now_ms(clock);
-        const otx_status status =
-            threads
-                ? otx_matcher_search(
-                      &s->run, s->matcher, &s->mask, &query, best, 1, &count)
-                : otx_matcher_search_serial(
-                      s->run.scratch, s->matcher, &s->mask, &query, best, 1,
-                      &count);
-
-        if (status != OSDTEX_OK || count != 1)
-            return NAN;
-        fastest = fmin(fastest, now_ms(clock) - start);
+        for (int p = 0; p < PLANES; ++p)
+            fftwf_execute(t->forward[p]);
+        fftwf_execute(t->inverse);
     }
-    return fastest;
+    return OSDTEX_OK;
 }
 
-static int
-bench_size(int32_t n, int32_t repeats)
+/* -- searches ------------------------------------------------------------ */
+
+typedef struct fit
 {
-    scene s;
-    otx_match exact, coarse, coarser;
-    int failed = scene_open(&s, n) != OSDTEX_OK;
+    bench_match_scene *scene;
+    int32_t levels; /* halvings of the exhaustive search */
+    bool threads;   /* over the pool, else in this thread */
+    otx_match best;
+} fit;
 
-    if (!failed)
-    {
-        const double floor_ms = time_floor(n, repeats);
-        const double full = time_search(&s, 0, false, repeats, &exact);
-        const double full2 = time_search(&s, 0, true, repeats, &exact);
-        const double half = time_search(&s, 1, false, repeats, &coarse);
-        const double half2 = time_search(&s, 1, true, repeats, &coarse);
-        const double quarter = time_search(&s, 2, false, repeats, &coarser);
+static otx_status
+run_fit(void *context)
+{
+    fit *f = context;
+    bench_match_scene *s = f->scene;
+    otx_match_query query =
+        otx_match_query_defaults(s->angles, BENCH_ORIENTATIONS);
+    int32_t count = 0;
 
-        failed = !(full + full2 + half + half2 + quarter > 0.0);
-        printf(
-            "%5d %9.2f %9.2f %6.2f %9.2f %9.2f %9.2f %9.2f   %.4f %.4f %.4f\n",
-            n, floor_ms, full, full / floor_ms, full2, half, half2, quarter,
-            exact.error, coarse.error, coarser.error);
-    }
-    scene_close(&s);
-    return failed;
+    query.coarse_levels = f->levels;
+    OTX_TRY(
+        f->threads
+            ? otx_matcher_search(
+                  &s->run, s->matcher, &s->mask, &query, &f->best, 1, &count)
+            : otx_matcher_search_serial(
+                  s->run.scratch, s->matcher, &s->mask, &query, &f->best, 1,
+                  &count));
+    return count == 1 ? OSDTEX_OK : OSDTEX_ERROR_NUMERIC;
 }
 
-/* --------------------------------------------------------------- verify */
+static bool
+time_size(int32_t n, const bench_options *options, bench_report *report)
+{
+    transforms floor;
+    bench_match_scene s;
+    fit fits[LANES - 1] = {
+        {.scene = &s, .levels = 0}, {.scene = &s, .levels = 0, .threads = true},
+        {.scene = &s, .levels = 1}, {.scene = &s, .levels = 1, .threads = true},
+        {.scene = &s, .levels = 2},
+    };
+    bench_lane lanes[LANES] = {{.body = run_transforms, .context = &floor}};
+    otx_status status;
+    char label[16];
 
-/* Mean square of one whole-texel placement by the definition; the drawing of
- * the mask is shared with the search, the sums are not. */
+    if (bench_match_scene_open(&s, n, options->threads) != OSDTEX_OK)
+        return false;
+    transforms_open(&floor, n);
+    for (int l = 1; l < LANES; ++l)
+        lanes[l] = (bench_lane){.body = run_fit, .context = &fits[l - 1]};
+    status = bench_stopwatch_race(
+        lanes, LANES, bench_row_repeat(options, USUAL_TURNS));
+    if (status == OSDTEX_OK)
+    {
+        const double values[] = {
+            1e3 * lanes[0].best.cpu,
+            1e3 * lanes[1].best.cpu,
+            lanes[1].best.cpu / lanes[0].best.cpu,
+            lanes[1].median.cpu / lanes[0].median.cpu,
+            1e3 * lanes[2].best.wall,
+            1e3 * lanes[3].best.cpu,
+            1e3 * lanes[4].best.wall,
+            1e3 * lanes[5].best.cpu,
+            fits[2].best.error / fits[0].best.error,
+            fits[4].best.error / fits[0].best.error,
+        };
+
+        snprintf(label, sizeof label, "%d", n);
+        bench_report_row(report, label, values);
+    }
+    transforms_close(&floor);
+    bench_match_scene_close(&s);
+    return status == OSDTEX_OK;
+}
+
+static bool
+time_match(const bench_options *options, bench_report *report)
+{
+    static const char *const columns[] = {
+        "size",
+        "floor",
+        "full",
+        "full / floor",
+        "same, median",
+        "full, wall N",
+        "half",
+        "half, wall N",
+        "quarter",
+        "error of half / full",
+        "of quarter / full",
+        NULL};
+    bool right = true;
+
+    bench_report_begin(
+        report,
+        "match: one fit over 19 orientations, ms of one core (wall N: elapsed "
+        "with all threads)",
+        columns);
+    for (int i = 0; i < SIZE_COUNT; ++i)
+        right = right && time_size(SIZES[i], options, report);
+    return right;
+}
+
+/* -- verification -------------------------------------------------------- */
+
+/* Largest difference between the map of one angle and direct sums at 200
+ * translations, in sigma squared. Drawing the mask is shared, sums are not. */
 static double
-largest_deviation(scene *s, double angle)
+largest_deviation(bench_match_scene *s, double angle)
 {
     const otx_plane *plane = &s->matcher->planes[0];
     otx_exhaust_buffers buffers;
@@ -265,11 +208,9 @@ largest_deviation(scene *s, double angle)
         const int32_t y = (int32_t)(otx_random_unit(1, 2, k) * plane->height);
         const otx_match placement = {
             .angle = angle, .shift = {x - sums.base_x, y - sums.base_y}};
+        const size_t at = (size_t)y * otx_fft_stride(plane->fft) + (size_t)x;
         const double value =
-            (sums.energy +
-             (double)buffers
-                 .map[(size_t)y * otx_fft_stride(plane->fft) + (size_t)x]) /
-            sums.weight;
+            (sums.energy + (double)buffers.map[at]) / sums.weight;
 
         largest = fmax(
             largest,
@@ -278,37 +219,33 @@ largest_deviation(scene *s, double angle)
     return largest / (s->matcher->sigma * s->matcher->sigma);
 }
 
-static int
-verify_size(int32_t n)
+static bool
+verify_match(const bench_options *options)
 {
-    scene s;
-    double largest = INFINITY;
+    bool right = true;
 
-    if (scene_open(&s, n) == OSDTEX_OK)
+    for (int i = 0; i < SIZE_COUNT; ++i)
     {
-        largest = 0.0;
-        for (int a = 0; a < ORIENTATIONS; ++a)
+        bench_match_scene s;
+        double largest = 0.0;
+
+        if (bench_match_scene_open(&s, SIZES[i], options->threads) != OSDTEX_OK)
+            return false;
+        for (int a = 0; a < BENCH_ORIENTATIONS; ++a)
             largest = fmax(largest, largest_deviation(&s, s.angles[a]));
+        bench_match_scene_close(&s);
+        right &= bench_row_check(
+            largest < 1e-4,
+            "match %d: FFT and direct sums differ by %.2g sigma^2", SIZES[i],
+            largest);
     }
-    scene_close(&s);
-    printf("match %d: FFT - direct <= %.2g sigma^2\n", n, largest);
-    return !(largest < 1e-4);
+    return right;
 }
 
-int
-bench_match(int verify)
-{
-    static const int32_t sizes[] = {128, 256, 480, 512};
-    int failed = 0;
-
-    if (!verify)
-        printf(
-            "match: ms for %d orientations (x: to floor; 2t: two threads,"
-            " wall)\n"
-            "%5s %9s %9s %6s %9s %9s %9s %9s   %s\n",
-            ORIENTATIONS, "size", "floor", "full", "x", "full 2t", "half",
-            "half 2t", "quarter", "errors");
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i)
-        failed |= verify ? verify_size(sizes[i]) : bench_size(sizes[i], 15);
-    return failed;
-}
+const bench_row bench_row_match = {
+    .name = "match",
+    .summary = "One fit over 19 orientations against the bare FFTW "
+               "transforms of the same job.",
+    .time = time_match,
+    .verify = verify_match,
+};
