@@ -7,6 +7,7 @@
  *     osdtex_exemplar_read  the picture of a material, colours resolved
  *     osdtex_map            a mapping: UVs into the exemplar for every face
  *     osdtex_mapping_write  OBJ + MTL + EXR that load in the DCC
+ *     osdtex_bake           the cage with textures on its UVs
  *     osdtex_render         a picture of the result
  *
  * Every call that can fail returns an osdtex_status; on failure *out is NULL,
@@ -464,7 +465,10 @@ extern "C"
         int32_t wrap_x;   /* 1: tiles left to right */
         int32_t wrap_y;
         int32_t reserved;
-        const float *pixels; /* in linear_space, bottom row first */
+        const float *pixels;  /* in linear_space, bottom row first */
+        int32_t source_width; /* of the picture whose width a scale means:
+                               * this one, or the one tiles were made of */
+        int32_t tile_size;    /* texels; 0: this is no tiled texture */
     } osdtex_exemplar_info;
 
     /* Reads EXR, PNG, TIFF or JPEG, told by content. FORMAT, SUPPORT, LIMIT,
@@ -602,6 +606,68 @@ extern "C"
         osdtex_context *context, const osdtex_mapping *mapping,
         const char *path, const osdtex_write_options *options);
 
+    /* Onto which texture coordinates a mapping is baked. */
+    typedef int32_t osdtex_bake_uvs;
+    enum
+    {
+        OSDTEX_BAKE_UVS_AUTO = 0, /* the cage's where it has UVs */
+        OSDTEX_BAKE_UVS_OWN = 1,  /* the cage's, on UDIM tiles */
+        OSDTEX_BAKE_UVS_ATLAS = 2 /* a block for every face of the cage */
+    };
+
+    /* What is baked besides the colour, as 32-bit NAME_patch.<UDIM>.exr and so
+     * on: values at the texel's centre, never averaged; blue is 1 on the
+     * surface and 0 beyond. */
+    enum
+    {
+        OSDTEX_BAKE_PATCH = 1,   /* number of the patch, face of the cage */
+        OSDTEX_BAKE_UV = 2,      /* UV in the exemplar */
+        OSDTEX_BAKE_STRETCH = 4, /* L2 stretch, ratio of the axes; 1 is none */
+        OSDTEX_BAKE_SEAM = 8     /* 1 where patches meet */
+    };
+
+    typedef struct osdtex_bake_options
+    {
+        size_t size;
+        const char *const *comments; /* [comment_count] lines for the texts */
+        int32_t comment_count;
+        osdtex_bake_uvs uvs;
+        int32_t resolution;     /* texels of a tile's side, up to 32768 */
+        int32_t margin;         /* texels continued beyond the rims of charts;
+                                 * 0 chooses */
+        double texels_per_unit; /* of an atlas; 0: what fills one tile */
+        double seam_blend;      /* texels over which patches are blended */
+        uint32_t extras;        /* OSDTEX_BAKE_PATCH | … */
+        int32_t preview_png;    /* 1: also NAME.<UDIM>.png, at most 1024 texels
+                                 * a side, and NAME_preview.mtl */
+    } osdtex_bake_options;
+
+    static inline osdtex_bake_options osdtex_bake_options_default(void)
+    {
+        osdtex_bake_options options = {
+            sizeof(osdtex_bake_options),
+            NULL,
+            0,
+            OSDTEX_BAKE_UVS_AUTO,
+            4096,
+            0,
+            0.0,
+            0.0,
+            0,
+            0};
+
+        return options;
+    }
+
+    /* Bakes a mapping into textures of the cage: NAME_cage.obj and
+     * NAME_cage.mtl, NAME.<UDIM>.exr (1001 for the unit square), NAME.usda and
+     * NAME.mtlx, all or none of them. `path` is FOLDER/NAME.obj; that file
+     * itself is not written. ARGUMENT, IO, LIMIT (UVs outside of UDIM), MEMORY,
+     * CANCELLED. */
+    OSDTEX_API osdtex_status osdtex_bake(
+        osdtex_context *context, const osdtex_mapping *mapping,
+        const char *path, const osdtex_bake_options *options);
+
     /* Writes what was done as JSON: inputs with hashes, options and colour
      * decisions as resolved, patches, seams, distortion, times since the
      * context was created, findings. IO, MEMORY. */
@@ -609,6 +675,97 @@ extern "C"
         osdtex_context *context, const osdtex_mapping *mapping,
         const char *path);
     OSDTEX_API void osdtex_mapping_destroy(osdtex_mapping *mapping);
+
+    /* ------------------------------------------------------------------ */
+    /* Tiled textures: what the method "tile" maps.                        */
+
+    /* A segment of the picture that a boundary of the tiles shows. Texels from
+     * the lower left corner, radians. */
+    typedef struct osdtex_tiles_edge
+    {
+        double x, y; /* its middle */
+        double angle;
+        double length; /* 0: as long as a tile's side */
+    } osdtex_tiles_edge;
+
+    typedef struct osdtex_tiles_options
+    {
+        size_t size;
+        int32_t boundaries; /* 1 .. 3, (2n)^4 tiles; oriented: of rows and of
+                             * columns each, (4n)^4 tiles */
+        int32_t corners;    /* kinds of vertices, 1 .. 4; n^4 times the tiles */
+        int32_t tile_size;  /* texels, a power of two; 0: by the picture */
+        int32_t gutter;     /* texels of that on each side, a power of two */
+        int32_t oriented;   /* 1: nothing is turned by 90 degrees */
+        int32_t edge_count;
+        const osdtex_tiles_edge *edges; /* [edge_count], of the first
+                                         * boundaries; the others are chosen */
+        int32_t has_corner;
+        int32_t background[4]; /* x0, y0, x1, y1: insides of tiles come from
+                                * these texels; all 0: from anywhere */
+        int32_t reserved;
+        double corner_x; /* texels; middle of the first kind of vertex */
+        double corner_y;
+        uint64_t seed;
+        /* The settings with which `surface` will be mapped. */
+        const osdtex_setting *settings;
+        int32_t setting_count;
+        int32_t reserved2;
+        double scale; /* as for osdtex_map */
+    } osdtex_tiles_options;
+
+    static inline osdtex_tiles_options osdtex_tiles_options_default(void)
+    {
+        osdtex_tiles_options options = {
+            sizeof(osdtex_tiles_options),
+            1,
+            1,
+            0,
+            4,
+            0,
+            0,
+            NULL,
+            0,
+            {0, 0, 0, 0},
+            0,
+            0.0,
+            0.0,
+            1,
+            NULL,
+            0,
+            0,
+            0.0};
+
+        return options;
+    }
+
+    typedef struct osdtex_tiles_info
+    {
+        int32_t tile_count;
+        int32_t tile_size;
+        int32_t width; /* of the picture */
+        int32_t height;
+        /* Mean CIELAB distance along the cuts of vertices, edges and insides,
+         * and of two random texels. */
+        double corner_cut;
+        double edge_cut;
+        double inner_cut;
+        double random_pair;
+    } osdtex_tiles_info;
+
+    /* Makes a tiled texture from `exemplar` and writes it as an EXR that
+     * osdtex_exemplar_read takes back.
+     *
+     *   surface  only the tiles that mapping it with this seed, scale and
+     *            settings needs; NULL: all
+     *   out      what was made; NULL not wanted
+     *
+     * ARGUMENT (options, a picture that is too small), LIMIT, IO, MEMORY,
+     * CANCELLED. */
+    OSDTEX_API osdtex_status osdtex_tiles_write(
+        osdtex_context *context, const osdtex_exemplar *exemplar,
+        const osdtex_surface *surface, const osdtex_tiles_options *options,
+        const char *path, osdtex_tiles_info *out);
 
     /* ------------------------------------------------------------------ */
     /* Pictures of the result.                                             */

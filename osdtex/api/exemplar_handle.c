@@ -35,6 +35,7 @@ info_of(const otx_exemplar *exemplar, const char *type)
         .wrap_x = exemplar->wrap_x,
         .wrap_y = exemplar->wrap_y,
         .pixels = exemplar->linear.pixels,
+        .source_width = exemplar->linear.width,
     };
 }
 
@@ -93,6 +94,21 @@ keep_source(otx_run *run, const char *path, otx_exemplar_input *input)
     return input->hash ? OSDTEX_OK : otx_fail_memory(run, "exemplar");
 }
 
+/* Takes over how a tiled texture is divided. */
+static otx_status
+keep_tiles(
+    otx_run *run, const char *path, const char *text, osdtex_exemplar *handle)
+{
+    otx_exemplar *exemplar = &handle->exemplar;
+
+    OTX_TRY(otx_tile_layout_parse(
+        run, path, text, exemplar->linear.width, exemplar->linear.height,
+        &exemplar->tiles));
+    handle->info.tile_size = exemplar->tiles.cell;
+    handle->info.source_width = exemplar->tiles.source_width;
+    return OSDTEX_OK;
+}
+
 static otx_status
 read_exemplar(
     otx_call *call, const char *path, const osdtex_exemplar_options *options,
@@ -121,7 +137,11 @@ read_exemplar(
     memcpy(
         input.source.chromaticities, picture.chromaticities,
         sizeof picture.chromaticities);
-    return build(call, &input, &ours, type_of(&picture), out);
+    if (picture.tiles)
+        ours.wrap = OSDTEX_WRAP_NO;
+    OTX_TRY(build(call, &input, &ours, type_of(&picture), out));
+    return picture.tiles ? keep_tiles(&call->run, path, picture.tiles, *out)
+                         : OSDTEX_OK;
 }
 
 osdtex_status

@@ -1,6 +1,7 @@
 /* mapping_handle.c -- running a method, writing what it made. */
 #include "api/call.h"
 #include "api/handle.h"
+#include "api/method_settings.h"
 #include "base/near.h"
 #include "export/model.h"
 
@@ -25,32 +26,6 @@ choose_method(otx_run *run, const char *name, const otx_method **out)
     return otx_fail(
         run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
         "there is no method '%.60s'%s", name ? name : "", near_names);
-}
-
-static otx_status
-choose_settings(
-    otx_run *run, const otx_method *method, const osdtex_map_options *options,
-    const void **out)
-{
-    void *settings = otx_arena_zalloc(run->arena, method->settings_bytes, 1);
-
-    if (!settings)
-        return otx_fail_memory(run, "map");
-    otx_option_defaults(method->options, method->option_count, settings);
-    for (int32_t i = 0; i < options->setting_count; ++i)
-    {
-        const osdtex_setting *s = &options->settings[i];
-
-        if (!s->key || !s->value)
-            return otx_fail(
-                run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
-                "a setting without a key or a value");
-        OTX_TRY(otx_option_set(
-            run, method->options, method->option_count, settings, s->key,
-            s->value));
-    }
-    *out = settings;
-    return OSDTEX_OK;
 }
 
 static otx_status
@@ -128,7 +103,9 @@ map(otx_run *run, const osdtex_surface *surface,
     handle->exemplar = exemplar;
     handle->seed = ours.seed;
     OTX_TRY(choose_method(run, ours.method, &handle->method));
-    OTX_TRY(choose_settings(run, handle->method, &ours, &handle->settings));
+    OTX_TRY(otx_method_settings_read(
+        run, handle->method, ours.settings, ours.setting_count,
+        &handle->settings));
     OTX_TRY(choose_request(run, surface, &ours, &handle->request));
     run->seed = ours.seed;
     OTX_TRY(otx_method_map(

@@ -4,15 +4,50 @@
 #include <string.h>
 
 static const otx_flag_id map_flags[] = {
-    OTX_FLAG_OUTPUT,      OTX_FLAG_METHOD,       OTX_FLAG_SCALE,
-    OTX_FLAG_LEVEL,       OTX_FLAG_SEED,         OTX_FLAG_SET,
-    OTX_FLAG_FIRST_PATCH, OTX_FLAG_PREVIEW,      OTX_FLAG_JSON_REPORT,
-    OTX_FLAG_SCHEME,      OTX_FLAG_BOUNDARY,     OTX_FLAG_FVAR,
-    OTX_FLAG_FROM,        OTX_FLAG_TO,           OTX_FLAG_MATCH_SPACE,
-    OTX_FLAG_MATCH_IN,    OTX_FLAG_WRAP,         OTX_FLAG_COLORCONFIG,
-    OTX_FLAG_THREADS,     OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_DRY_RUN,
-    OTX_FLAG_UPDATE,      OTX_FLAG_VERBOSE,      OTX_FLAG_QUIET,
-    OTX_FLAG_HELP,        OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
+    OTX_FLAG_OUTPUT,      OTX_FLAG_METHOD,      OTX_FLAG_SCALE,
+    OTX_FLAG_LEVEL,       OTX_FLAG_SEED,        OTX_FLAG_SET,
+    OTX_FLAG_TILE_LEVEL,  OTX_FLAG_FIRST_PATCH, OTX_FLAG_PREVIEW,
+    OTX_FLAG_JSON_REPORT, OTX_FLAG_SCHEME,      OTX_FLAG_BOUNDARY,
+    OTX_FLAG_FVAR,        OTX_FLAG_FROM,        OTX_FLAG_TO,
+    OTX_FLAG_MATCH_SPACE, OTX_FLAG_MATCH_IN,    OTX_FLAG_WRAP,
+    OTX_FLAG_COLORCONFIG, OTX_FLAG_THREADS,     OTX_FLAG_MEMORY_LIMIT,
+    OTX_FLAG_DRY_RUN,     OTX_FLAG_UPDATE,      OTX_FLAG_VERBOSE,
+    OTX_FLAG_QUIET,       OTX_FLAG_HELP,        OTX_FLAG_VERSION,
+    OTX_FLAG_COUNT};
+
+static const otx_flag_id tiles_flags[] = {
+    OTX_FLAG_OUTPUT,
+    OTX_FLAG_BOUNDARIES,
+    OTX_FLAG_CORNERS,
+    OTX_FLAG_TILE_SIZE,
+    OTX_FLAG_GUTTER,
+    OTX_FLAG_ORIENTED,
+    OTX_FLAG_SEED,
+    OTX_FLAG_EDGE_TEMPLATE,
+    OTX_FLAG_CORNER_TEMPLATE,
+    OTX_FLAG_BACKGROUND,
+    OTX_FLAG_FOR,
+    OTX_FLAG_SCALE,
+    OTX_FLAG_LEVEL,
+    OTX_FLAG_TILE_LEVEL,
+    OTX_FLAG_SET,
+    OTX_FLAG_SCHEME,
+    OTX_FLAG_BOUNDARY,
+    OTX_FLAG_FVAR,
+    OTX_FLAG_FROM,
+    OTX_FLAG_TO,
+    OTX_FLAG_MATCH_SPACE,
+    OTX_FLAG_MATCH_IN,
+    OTX_FLAG_WRAP,
+    OTX_FLAG_COLORCONFIG,
+    OTX_FLAG_THREADS,
+    OTX_FLAG_MEMORY_LIMIT,
+    OTX_FLAG_DRY_RUN,
+    OTX_FLAG_VERBOSE,
+    OTX_FLAG_QUIET,
+    OTX_FLAG_HELP,
+    OTX_FLAG_VERSION,
+    OTX_FLAG_COUNT};
 
 static const otx_flag_id render_flags[] = {
     OTX_FLAG_OUTPUT,       OTX_FLAG_CAMERA,      OTX_FLAG_TURN,
@@ -50,6 +85,15 @@ static const otx_command commands[] = {
      "osdtex map shirt.obj weave.exr -o out/shirt.obj --scale 12 --level 3 \\\n"
      "    --json-report out/shirt.json\n",
      map_flags, otx_map_command_run},
+    {"tiles", "EXEMPLAR", 1, 1, "make a tiled texture from a picture",
+     "Makes square tiles that meet exactly on any quad mesh, at edges, "
+     "vertices and\nmip levels: osdtex map CAGE.obj TILES.exr --method tile. "
+     "The UVs do not depend on\nthe picture, so that other tiles of the same "
+     "layout fit the same OBJ.",
+     "osdtex tiles models/exemplars/gravel_tile.png -o gravel_tiles.exr\n"
+     "osdtex tiles wood.exr -o wood_tiles.exr --oriented --for shirt.obj "
+     "--tile-level 2\n",
+     tiles_flags, otx_tiles_command_run},
     {"render", "MODEL.obj", 1, 1, "take a picture of a textured model",
      "Ray-traces an OBJ with the textures that its MTL names. PNG is for the "
      "eye\n(sRGB), EXR is scene-linear.",

@@ -36,6 +36,7 @@ const otx_command *otx_command_find(const char *name);
 const char *otx_command_name(int index);
 
 int otx_map_command_run(const otx_flag_values *values);
+int otx_tiles_command_run(const otx_flag_values *values);
 int otx_render_command_run(const otx_flag_values *values);
 int otx_info_command_run(const otx_flag_values *values);
 int otx_methods_command_run(const otx_flag_values *values);

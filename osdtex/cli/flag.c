@@ -10,7 +10,7 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_OUTPUT] =
         {"output", 'o', OTX_FLAG_GROUP_MAIN, "FILE",
          "what to write; map: DIR/NAME.obj, with NAME.mtl and NAME.exr beside "
-         "it; render: a .png or .exr"},
+         "it; render: a .png or .exr; tiles: an .exr"},
     [OTX_FLAG_METHOD] =
         {"method", 0, OTX_FLAG_GROUP_MAIN, "NAME",
          "how to texture; `osdtex methods` lists them (default: the first)"},
@@ -33,6 +33,45 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"first-patch", 0, OTX_FLAG_GROUP_MAIN, "FACE,U,V,ANGLE",
          "begin at this face of the cage (0-based), its middle at U,V of the "
          "exemplar, turned by ANGLE degrees"},
+    [OTX_FLAG_TILE_LEVEL] =
+        {"tile-level", 0, OTX_FLAG_GROUP_MAIN, "N",
+         "method tile: subdivision level whose quads get one tile each "
+         "(default: by the scale)"},
+    [OTX_FLAG_BOUNDARIES] =
+        {"boundaries", 0, OTX_FLAG_GROUP_MAIN, "N",
+         "kinds of edges, 1 to 3, each with two sides: (2N)^4 tiles (default "
+         "1)"},
+    [OTX_FLAG_CORNERS] =
+        {"corners", 0, OTX_FLAG_GROUP_MAIN, "N",
+         "kinds of vertices, 1 to 4: N^4 times the tiles (default 1)"},
+    [OTX_FLAG_TILE_SIZE] =
+        {"tile-size", 0, OTX_FLAG_GROUP_MAIN, "PX",
+         "texels of a tile's side with its gutters, a power of two (default "
+         "128, less for small pictures)"},
+    [OTX_FLAG_GUTTER] =
+        {"gutter", 0, OTX_FLAG_GROUP_MAIN, "PX",
+         "texels beyond the edge of a tile, a power of two; mip levels show "
+         "the picture up to texels of twice that (default 4)"},
+    [OTX_FLAG_ORIENTED] =
+        {"oriented", 0, OTX_FLAG_GROUP_MAIN, NULL,
+         "for pictures with a direction: rows and columns have edges of their "
+         "own, and nothing is turned by 90 degrees"},
+    [OTX_FLAG_EDGE_TEMPLATE] =
+        {"edge-template", 0, OTX_FLAG_GROUP_MAIN, "X,Y,ANGLE[,LENGTH]",
+         "what the next boundary shows: a segment of the picture by its middle "
+         "in texels from the lower left, angle in degrees and length (default: "
+         "chosen by the cuts that come of it)"},
+    [OTX_FLAG_CORNER_TEMPLATE] =
+        {"corner-template", 0, OTX_FLAG_GROUP_MAIN, "X,Y",
+         "what the first kind of vertex shows, in texels from the lower left "
+         "(default: chosen likewise)"},
+    [OTX_FLAG_BACKGROUND] =
+        {"background", 0, OTX_FLAG_GROUP_MAIN, "X0,Y0,X1,Y1",
+         "insides of tiles come from these texels only (default: from all)"},
+    [OTX_FLAG_FOR] =
+        {"for", 0, OTX_FLAG_GROUP_MAIN, "CAGE.obj",
+         "make only the tiles that `osdtex map CAGE.obj` needs with the same "
+         "--level, --tile-level, --scale, --seed and --set"},
     [OTX_FLAG_PREVIEW] =
         {"preview", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "also render the result to a .png or .exr"},
@@ -213,6 +252,18 @@ complain(const char *word)
     return false;
 }
 
+static bool
+take_edge(const char *text, otx_flag_values *out)
+{
+    if (out->edge_count == OTX_FLAG_EDGES_MAX)
+    {
+        fprintf(stderr, "osdtex: error: --edge-template is given too often\n");
+        return false;
+    }
+    out->edges[out->edge_count++] = text;
+    return true;
+}
+
 /* KEY=VALUE into the list; argv is ours to cut. */
 static bool
 take_setting(char *text, otx_flag_values *out)
@@ -291,6 +342,8 @@ otx_flag_parse(
         id = c >= ID_BASE ? c - ID_BASE : id_of_letter(c);
         out->text[id] = optarg ? optarg : "";
         if (id == OTX_FLAG_SET && !take_setting(optarg, out))
+            return false;
+        if (id == OTX_FLAG_EDGE_TEMPLATE && !take_edge(optarg, out))
             return false;
     }
 }

@@ -18,6 +18,16 @@ typedef enum otx_flag_id
     OTX_FLAG_SEED,
     OTX_FLAG_SET,
     OTX_FLAG_FIRST_PATCH,
+    OTX_FLAG_TILE_LEVEL,
+    OTX_FLAG_BOUNDARIES,
+    OTX_FLAG_CORNERS,
+    OTX_FLAG_TILE_SIZE,
+    OTX_FLAG_GUTTER,
+    OTX_FLAG_ORIENTED,
+    OTX_FLAG_EDGE_TEMPLATE,
+    OTX_FLAG_CORNER_TEMPLATE,
+    OTX_FLAG_BACKGROUND,
+    OTX_FLAG_FOR,
     OTX_FLAG_PREVIEW,
     OTX_FLAG_JSON_REPORT,
     OTX_FLAG_SCHEME,
@@ -72,7 +82,8 @@ typedef struct otx_flag
 enum
 {
     OTX_FLAG_SETTINGS_MAX = 64,
-    OTX_FLAG_OPERANDS_MAX = 8
+    OTX_FLAG_OPERANDS_MAX = 8,
+    OTX_FLAG_EDGES_MAX = 8
 };
 
 /* A command line, taken apart. Strings point into argv. */
@@ -81,6 +92,8 @@ typedef struct otx_flag_values
     const char *text[OTX_FLAG_COUNT]; /* NULL: not given; "" for switches */
     osdtex_setting settings[OTX_FLAG_SETTINGS_MAX]; /* of --set, in order */
     int setting_count;
+    const char *edges[OTX_FLAG_EDGES_MAX]; /* of --edge-template, in order */
+    int edge_count;
     const char *operands[OTX_FLAG_OPERANDS_MAX];
     int operand_count;
 } otx_flag_values;

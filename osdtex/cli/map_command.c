@@ -26,6 +26,7 @@ typedef struct job
     osdtex_exemplar_options exemplar_options;
     osdtex_surface_options surface_options;
     osdtex_map_options map_options;
+    osdtex_setting settings[OTX_FLAG_SETTINGS_MAX + 1];
     char obj[PATH_BYTES], mtl[PATH_BYTES], exr[PATH_BYTES];
     const char *preview, *report; /* NULL none */
     bool has_hash;
@@ -171,6 +172,35 @@ parse_numbers(job *j)
     return true;
 }
 
+/* --tile-level is a setting of the method, and the level of the surface where
+ * none is given. */
+static bool
+parse_tile_level(job *j)
+{
+    const char *text = j->values->text[OTX_FLAG_TILE_LEVEL];
+    int64_t level;
+
+    memcpy(
+        j->settings, j->values->settings,
+        (size_t)j->values->setting_count * sizeof *j->settings);
+    j->map_options.settings = j->settings;
+    j->map_options.setting_count = j->values->setting_count;
+    if (!text)
+        return true;
+    if (!otx_value_int(text, 0, OSDTEX_LEVEL_MAX, &level))
+    {
+        otx_session_refuse(
+            "--tile-level takes a number from 0 to %d, not '%s'",
+            OSDTEX_LEVEL_MAX, text);
+        return false;
+    }
+    if (!j->values->text[OTX_FLAG_LEVEL])
+        j->surface_options.level = (int32_t)level;
+    j->settings[j->map_options.setting_count++] =
+        (osdtex_setting){"level", text};
+    return true;
+}
+
 static bool
 parse_first_patch(job *j)
 {
@@ -200,13 +230,12 @@ parse(job *j, const otx_flag_values *values)
     j->surface_options = osdtex_surface_options_default();
     j->map_options = osdtex_map_options_default();
     j->map_options.method = values->text[OTX_FLAG_METHOD];
-    j->map_options.settings = values->settings;
-    j->map_options.setting_count = values->setting_count;
     j->preview = values->text[OTX_FLAG_PREVIEW];
     j->report = values->text[OTX_FLAG_JSON_REPORT];
     if (!otx_inputs_cage(values, &j->cage_options) ||
         !otx_inputs_exemplar(values, &j->exemplar_options) ||
-        !name_outputs(j) || !parse_numbers(j) || !parse_first_patch(j))
+        !name_outputs(j) || !parse_numbers(j) || !parse_tile_level(j) ||
+        !parse_first_patch(j))
         return false;
     if (!is_picture(j->preview))
     {
@@ -252,7 +281,8 @@ read_inputs(otx_session *session, job *j)
             cage->default_scale);
     }
     j->surface_options.texel =
-        j->map_options.scale / osdtex_exemplar_describe(j->exemplar)->width;
+        j->map_options.scale /
+        osdtex_exemplar_describe(j->exemplar)->source_width;
     return osdtex_surface_refine(
         session->context, j->cage, &j->surface_options, &j->surface);
 }

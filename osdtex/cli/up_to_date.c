@@ -17,7 +17,7 @@ static const otx_flag_id matter[] = {
     OTX_FLAG_SEED,     OTX_FLAG_FIRST_PATCH, OTX_FLAG_SCHEME,
     OTX_FLAG_BOUNDARY, OTX_FLAG_FVAR,        OTX_FLAG_FROM,
     OTX_FLAG_TO,       OTX_FLAG_MATCH_SPACE, OTX_FLAG_MATCH_IN,
-    OTX_FLAG_WRAP};
+    OTX_FLAG_WRAP,     OTX_FLAG_TILE_LEVEL};
 
 static bool
 hash_file(const char *path, char text[OSDTEX_HASH_BYTES])

@@ -2,8 +2,8 @@
 #include "export/model.h"
 
 #include "export/names.h"
+#include "export/texture.h"
 #include "export/uv_pool.h"
-#include "file/exr.h"
 #include "file/mtl.h"
 #include "file/obj_write.h"
 
@@ -216,25 +216,6 @@ write_mtl(
     return otx_mtl_write(run, &mtl, temporary, names->mtl);
 }
 
-static otx_status
-write_exr(
-    otx_run *run, otx_atomic_file_set *set, const otx_names *names,
-    const otx_exemplar *exemplar)
-{
-    otx_exr_options options = otx_exr_options_default();
-
-    options.tiled = true;
-    options.wrap_x = exemplar->wrap_x;
-    options.wrap_y = exemplar->wrap_y;
-    options.has_chromaticities = exemplar->has_chromaticities;
-    memcpy(
-        options.chromaticities, exemplar->chromaticities,
-        sizeof options.chromaticities);
-    options.color_space = exemplar->linear_space;
-    options.interop_id = exemplar->interop_id;
-    return otx_exr_write(run, set, names->exr, &exemplar->linear, &options);
-}
-
 /* All into temporaries, then all into place: the OBJ last, so that whoever
  * waits for it finds the others. */
 static otx_status
@@ -247,7 +228,9 @@ write_files(
     if (!set)
         OTX_TRY(otx_atomic_file_begin(run, run->scratch, &set));
     if (!options->without_image)
-        OTX_TRY(write_exr(run, set, names, exemplar));
+        OTX_TRY(otx_texture_write(
+            run, set, names->exr, exemplar, &exemplar->linear, &exemplar->tiles,
+            -1.0));
     OTX_TRY(write_mtl(run, set, names, &obj->materials));
     OTX_TRY(write_obj(run, set, names, obj, options));
     return options->set ? OSDTEX_OK : otx_atomic_file_commit(run, set, true);

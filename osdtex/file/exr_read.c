@@ -344,6 +344,7 @@ read_metadata(reader *r)
     out->alpha_is_premultiplied = r->channels[3] != NONE;
     out->interop_id = read_text(r, "colorInteropID");
     out->oiio_space = read_text(r, "oiio:ColorSpace");
+    out->tiles = read_text(r, "osdtex:tiles");
     if (exr_attr_get_chromaticities(r->file, r->part, "chromaticities", &c) !=
         EXR_ERR_SUCCESS)
         return;

@@ -42,6 +42,7 @@ typedef struct otx_picture
     /* Colour metadata found in the file; NULL, false and 0 where absent. */
     const char *interop_id;  /* EXR colorInteropID */
     const char *oiio_space;  /* EXR oiio:ColorSpace */
+    const char *tiles;       /* EXR osdtex:tiles, see tile_layout.h */
     bool has_chromaticities; /* EXR only: the primaries of linear values */
     float chromaticities[8]; /* R, G, B, W as xy pairs */
     bool says_srgb;          /* PNG sRGB chunk */

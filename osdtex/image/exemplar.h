@@ -10,6 +10,7 @@
 #include "image/colour.h"
 #include "image/embedding.h"
 #include "image/image.h"
+#include "image/tile_layout.h"
 
 typedef struct otx_exemplar
 {
@@ -33,6 +34,7 @@ typedef struct otx_exemplar
     bool has_chromaticities;
     float chromaticities[8]; /* of linear_space: R, G, B, W xy pairs */
     otx_embedding embedding; /* of `match` */
+    otx_tile_layout tiles;   /* of a tiled texture; else `cell` is 0 */
 } otx_exemplar;
 
 typedef enum otx_exemplar_wrap

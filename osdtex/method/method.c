@@ -5,9 +5,11 @@
 #include <time.h>
 
 extern const otx_method otx_method_hierarchical;
+extern const otx_method otx_method_tile;
 
 static const otx_method *const METHODS[] = {
     &otx_method_hierarchical,
+    &otx_method_tile,
 };
 
 int32_t

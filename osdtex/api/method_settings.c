@@ -1,0 +1,28 @@
+/* method_settings.c -- defaults, then what the caller says. */
+#include "api/method_settings.h"
+
+otx_status
+otx_method_settings_read(
+    otx_run *run, const otx_method *method, const osdtex_setting *settings,
+    int32_t setting_count, const void **out)
+{
+    void *values = otx_arena_zalloc(run->arena, method->settings_bytes, 1);
+
+    if (!values)
+        return otx_fail_memory(run, "map");
+    otx_option_defaults(method->options, method->option_count, values);
+    for (int32_t i = 0; i < setting_count; ++i)
+    {
+        const osdtex_setting *s = &settings[i];
+
+        if (!s->key || !s->value)
+            return otx_fail(
+                run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
+                "a setting without a key or a value");
+        OTX_TRY(otx_option_set(
+            run, method->options, method->option_count, values, s->key,
+            s->value));
+    }
+    *out = values;
+    return OSDTEX_OK;
+}

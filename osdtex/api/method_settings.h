@@ -1,0 +1,13 @@
+/* method_settings.h -- KEY=VALUE pairs to the settings of a method. */
+#ifndef OTX_API_METHOD_SETTINGS_H
+#define OTX_API_METHOD_SETTINGS_H
+
+#include "method/method.h"
+
+/* The defaults of `method` with the caller's settings over them, in run->arena.
+ * ARGUMENT, MEMORY. */
+otx_status otx_method_settings_read(
+    otx_run *run, const otx_method *method, const osdtex_setting *settings,
+    int32_t setting_count, const void **out);
+
+#endif

@@ -1,0 +1,167 @@
+/* tiles_call.c -- making tiled textures. */
+#include "api/call.h"
+#include "api/handle.h"
+#include "api/method_settings.h"
+#include "export/texture.h"
+#include "method/tile/tile.h"
+#include "tiling/tileset.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char STAGE[] = "tiles";
+
+/* The edges of the caller as the stage takes them. */
+static otx_status
+choose_edges(
+    otx_run *run, const osdtex_tiles_options *options, otx_tileset_options *out)
+{
+    otx_tileset_edge *edges;
+
+    if (options->edge_count < 0 || (options->edge_count > 0 && !options->edges))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "no edge templates are given");
+    edges = OTX_NEW(run->arena, otx_tileset_edge, options->edge_count);
+    if (!edges)
+        return otx_fail_memory(run, STAGE);
+    for (int32_t i = 0; i < options->edge_count; ++i)
+    {
+        const osdtex_tiles_edge *e = &options->edges[i];
+
+        edges[i] = (otx_tileset_edge){{e->x, e->y}, e->angle, e->length};
+    }
+    out->edges = edges;
+    out->edge_count = options->edge_count;
+    return OSDTEX_OK;
+}
+
+static otx_status
+choose_options(
+    otx_run *run, const osdtex_tiles_options *o, otx_tileset_options *out)
+{
+    *out = (otx_tileset_options){
+        .boundaries = o->boundaries,
+        .corners = o->corners,
+        .cell = o->tile_size,
+        .gutter = o->gutter,
+        .oriented = o->oriented != 0,
+        .has_corner = o->has_corner != 0,
+        .corner = {o->corner_x, o->corner_y},
+        .background =
+            {o->background[0], o->background[1], o->background[2],
+             o->background[3]},
+    };
+    return choose_edges(run, o, out);
+}
+
+static int
+compare_names(const void *a, const void *b)
+{
+    const int32_t p = *(const int32_t *)a, q = *(const int32_t *)b;
+
+    return p < q ? -1 : p > q;
+}
+
+/* The names that a surface needs, ascending. */
+static otx_status
+choose_names(
+    otx_run *run, const otx_exemplar *exemplar, const osdtex_surface *surface,
+    const osdtex_tiles_options *options, otx_tileset_options *out)
+{
+    const otx_surface *s = &surface->surface;
+    const void *settings;
+    otx_tile_layout layout;
+    int32_t level, count = 0, *names;
+    uint8_t *turns;
+
+    OTX_TRY(otx_method_settings_read(
+        run, otx_method_find("tile"), options->settings, options->setting_count,
+        &settings));
+    OTX_TRY(otx_tileset_plan(run, exemplar, out, &layout));
+    OTX_TRY(otx_tile_level(
+        run, s, &layout, settings,
+        options->scale > 0.0 ? options->scale
+                             : surface->cage->info.default_scale,
+        &level));
+    OTX_TRY(otx_tile_assign(run, s, level, &layout, settings, &names, &turns));
+    qsort(
+        names, (size_t)s->levels[level].face_count, sizeof *names,
+        compare_names);
+    for (int32_t i = 0; i < s->levels[level].face_count; ++i)
+        if (names[i] >= 0 && (count == 0 || names[i] != names[count - 1]))
+            names[count++] = names[i];
+    if (count == 0)
+        return otx_fail(
+            run, OSDTEX_ERROR_TOPOLOGY, STAGE,
+            (otx_where){s->cage->path, 0, -1, -1},
+            "all faces of the mesh are holes; there is nothing to texture");
+    out->names = names;
+    out->name_count = count;
+    return OSDTEX_OK;
+}
+
+static otx_status
+write_set(
+    otx_run *run, const char *path, const otx_exemplar *exemplar,
+    const otx_tileset *made)
+{
+    otx_atomic_file_set *set;
+
+    OTX_TRY(otx_atomic_file_begin(run, run->scratch, &set));
+    OTX_TRY(otx_texture_write(
+        run, set, path, exemplar, &made->linear, &made->layout,
+        made->random_pair > 0.0 ? made->inner_seam / made->random_pair : 0.0));
+    return otx_atomic_file_commit(run, set, true);
+}
+
+static otx_status
+write_tiles(
+    otx_run *run, const osdtex_exemplar *exemplar,
+    const osdtex_surface *surface, const osdtex_tiles_options *options,
+    const char *path, osdtex_tiles_info *out)
+{
+    osdtex_tiles_options ours = osdtex_tiles_options_default();
+    otx_tileset_options how;
+    otx_tileset made;
+
+    OTX_TRY(otx_call_options(run, &ours, sizeof ours, options));
+    if (!exemplar || !path || ours.setting_count < 0 ||
+        (ours.setting_count > 0 && !ours.settings))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "no exemplar, no path, or no settings are given");
+    run->seed = ours.seed;
+    OTX_TRY(choose_options(run, &ours, &how));
+    if (surface)
+        OTX_TRY(choose_names(run, &exemplar->exemplar, surface, &ours, &how));
+    OTX_TRY(otx_tileset_make(run, &exemplar->exemplar, &how, &made));
+    OTX_TRY(write_set(run, path, &exemplar->exemplar, &made));
+    if (out)
+        *out = (osdtex_tiles_info){
+            .tile_count = made.tile_count,
+            .tile_size = made.layout.cell,
+            .width = made.linear.width,
+            .height = made.linear.height,
+            .corner_cut = made.corner_seam,
+            .edge_cut = made.strip_seam,
+            .inner_cut = made.inner_seam,
+            .random_pair = made.random_pair,
+        };
+    return OSDTEX_OK;
+}
+
+osdtex_status
+osdtex_tiles_write(
+    osdtex_context *context, const osdtex_exemplar *exemplar,
+    const osdtex_surface *surface, const osdtex_tiles_options *options,
+    const char *path, osdtex_tiles_info *out)
+{
+    otx_call call;
+
+    if (out)
+        *out = (osdtex_tiles_info){0};
+    OTX_TRY(otx_call_begin(context, STAGE, &call));
+    return otx_call_drop(
+        &call, write_tiles(&call.run, exemplar, surface, options, path, out));
+}

@@ -1,0 +1,78 @@
+/* texture.c -- colour attributes, tile attributes, levels. */
+#include "export/texture.h"
+
+#include "file/exr.h"
+#include "image/pyramid.h"
+
+#include <string.h>
+
+/* What the header says about tiles. `exact` levels show the picture; the
+ * coarser ones are flat along the rims of the tiles. */
+static otx_status
+describe_tiles(
+    otx_run *run, const otx_tile_layout *layout, double inner_cut,
+    otx_exr_options *options)
+{
+    otx_exr_attribute *list = OTX_ZNEW(run->scratch, otx_exr_attribute, 3);
+    const char *text = otx_tile_layout_print(run->scratch, layout);
+
+    if (!list || !text)
+        return otx_fail_memory(run, "export");
+    list[0] = (otx_exr_attribute){
+        .name = "osdtex:tiles", .kind = OTX_EXR_TEXT, .text = text};
+    list[1] = (otx_exr_attribute){
+        .name = "osdtex:exactLevels",
+        .kind = OTX_EXR_INTEGER,
+        .integer = otx_tile_layout_exact_levels(layout)};
+    list[2] = (otx_exr_attribute){
+        .name = "osdtex:innerCut",
+        .kind = OTX_EXR_REAL,
+        .real = (float)inner_cut};
+    options->attributes = list;
+    options->attribute_count = inner_cut < 0.0 ? 2 : 3;
+    return OSDTEX_OK;
+}
+
+static otx_status
+separate_levels(
+    otx_run *run, const otx_tile_layout *layout, const otx_image *image,
+    otx_exr_options *options)
+{
+    const int32_t count = otx_pyramid_count(image->width, image->height) - 1;
+    otx_image *levels = OTX_NEW(run->scratch, otx_image, count);
+
+    if (!levels)
+        return otx_fail_memory(run, "export");
+    OTX_TRY(otx_tile_layout_levels(run, run->scratch, layout, image, levels));
+    options->levels = levels;
+    options->level_count = count;
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_texture_write(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_exemplar *exemplar, const otx_image *image,
+    const otx_tile_layout *layout, double inner_cut)
+{
+    otx_exr_options options = otx_exr_options_default();
+
+    options.tiled = true;
+    options.has_chromaticities = exemplar->has_chromaticities;
+    memcpy(
+        options.chromaticities, exemplar->chromaticities,
+        sizeof options.chromaticities);
+    options.color_space = exemplar->linear_space;
+    options.interop_id = exemplar->interop_id;
+    if (layout->cell > 0)
+    {
+        OTX_TRY(describe_tiles(run, layout, inner_cut, &options));
+        OTX_TRY(separate_levels(run, layout, image, &options));
+    }
+    else
+    {
+        options.wrap_x = exemplar->wrap_x;
+        options.wrap_y = exemplar->wrap_y;
+    }
+    return otx_exr_write(run, set, path, image, &options);
+}

@@ -1,0 +1,155 @@
+/* interior.c -- strips over windows, cut by expansion moves. */
+#include "tiling/interior.h"
+
+static const char STAGE[] = "tiles";
+
+/* A strip as a sheet of the tile: as deep as it reaches. */
+static otx_status
+lay_side(
+    otx_run *run, const otx_frame_kit *kit, const otx_tile_name *name,
+    int32_t side, otx_quilt *quilt)
+{
+    const int32_t n = kit->sizes.side;
+    otx_texel_map sheet;
+    int32_t *texel;
+
+    OTX_TRY(otx_texel_map_create(run, run->scratch, n, n, &sheet));
+    texel = sheet.texels;
+    for (int32_t y = 0; y < n; ++y)
+        for (int32_t x = 0; x < n; ++x)
+        {
+            const otx_frame_place p = otx_frame_axes(n, side, x, y);
+
+            *texel++ = p.depth < kit->sizes.reach
+                           ? otx_frame_side_texel(kit, name, side, p)
+                           : OTX_TEXEL_NONE;
+        }
+    otx_quilt_add(quilt, sheet);
+    return OSDTEX_OK;
+}
+
+static otx_status
+lay_window(
+    otx_run *run, const otx_texel_pool *pool, otx_texel_window window,
+    otx_quilt *quilt)
+{
+    otx_texel_map sheet;
+
+    OTX_TRY(otx_texel_map_create(
+        run, run->scratch, quilt->width, quilt->height, &sheet));
+    otx_texel_pool_lay(pool, window, &sheet);
+    otx_quilt_add(quilt, sheet);
+    return OSDTEX_OK;
+}
+
+static void
+lock_rim(const otx_frame_kit *kit, otx_quilt *quilt)
+{
+    const int32_t n = kit->sizes.side, gutter = kit->sizes.gutter;
+    uint8_t *lock = quilt->locks;
+
+    for (int32_t y = 0; y < n; ++y)
+        for (int32_t x = 0; x < n; ++x, ++lock)
+            if (x < gutter || y < gutter || x >= n - gutter || y >= n - gutter)
+                *lock = (uint8_t)otx_frame_nearest(kit, x, y);
+}
+
+/* Expands every sheet in turn until a round brings nothing. */
+static otx_status
+settle(otx_run *run, otx_quilt *quilt, int32_t rounds)
+{
+    for (int32_t side = 0; side < 4; ++side)
+        OTX_TRY(otx_quilt_expand(run, quilt, side));
+    for (int32_t round = 0; round < rounds; ++round)
+    {
+        const int64_t before = quilt->cost;
+
+        for (int32_t s = quilt->sheet_count - 1; s >= 0; --s)
+            OTX_TRY(otx_quilt_expand(run, quilt, s));
+        if (quilt->cost == before)
+            break;
+    }
+    return OSDTEX_OK;
+}
+
+static void
+take_texels(
+    const otx_frame_kit *kit, const otx_tile_name *name, const otx_quilt *quilt,
+    otx_texel_map *map)
+{
+    const int32_t n = kit->sizes.side, gutter = kit->sizes.gutter;
+    int32_t *texel = map->texels;
+
+    for (int32_t y = -gutter; y < n + gutter; ++y)
+        for (int32_t x = -gutter; x < n + gutter; ++x)
+        {
+            const bool inside =
+                x >= gutter && y >= gutter && x < n - gutter && y < n - gutter;
+
+            *texel++ = inside ? otx_quilt_texel(quilt, x, y)
+                              : otx_frame_texel(kit, name, x, y);
+        }
+}
+
+otx_status
+otx_interior_fill(
+    otx_run *run, const otx_ring_search *search, const otx_tile_name *name,
+    const otx_texel_window *windows, int32_t window_count, int32_t rounds,
+    otx_texel_map *map, otx_quilt_seams *seams)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const otx_frame_kit *kit = search->kit;
+    otx_quilt *quilt = OTX_NEW(run->scratch, otx_quilt, 1);
+
+    if (!quilt)
+        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_quilt_create(
+        run, run->scratch, search->pool, kit->sizes.side, kit->sizes.side,
+        quilt));
+    for (int32_t side = 0; side < 4; ++side)
+        OTX_TRY(lay_side(run, kit, name, side, quilt));
+    for (int32_t i = 0; i < window_count; ++i)
+        OTX_TRY(lay_window(run, search->pool, windows[i], quilt));
+    lock_rim(kit, quilt);
+    for (int32_t s = 0; s <= 4; ++s)
+        otx_quilt_fill(quilt, s);
+    otx_quilt_price(quilt);
+    OTX_TRY(settle(run, quilt, rounds));
+    take_texels(kit, name, quilt, map);
+    if (seams)
+        *seams = otx_quilt_measure(quilt);
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_interior_build(
+    otx_run *run, const otx_ring_search *search, const otx_tile_name *name,
+    const otx_interior_options *options, otx_texel_map *map,
+    otx_quilt_seams *seams)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const int32_t room = options->windows + 4 * options->patches;
+    otx_texel_window *windows = OTX_NEW(run->scratch, otx_texel_window, room);
+    int32_t count;
+
+    if (!windows)
+        return otx_fail_memory(run, STAGE);
+    count = otx_ring_search_find(
+        run->scratch, search, name, OTX_RING_SEARCH_SIDES, options->windows,
+        windows);
+    for (int32_t side = 0; side < 4 && count >= 0; ++side)
+    {
+        const int32_t more = otx_ring_search_find(
+            run->scratch, search, name, 1 << side, options->patches,
+            windows + count);
+
+        count = more < 0 ? -1 : count + more;
+    }
+    if (count < 0)
+        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_interior_fill(
+        run, search, name, windows, count, options->rounds, map, seams));
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}

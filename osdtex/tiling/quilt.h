@@ -1,0 +1,77 @@
+/* quilt.h -- pictures sewn together along seams that hardly show.
+ *
+ * Several *sheets* lie over one another; every texel of the result shows one
+ * of them. Where two neighbours p, q show different sheets a, b there is a
+ * seam, and it costs [Kwatra03, eq. 1]
+ *
+ *     |a(p) - b(p)| + |a(q) - b(q)|
+ *
+ * in Lab. `otx_quilt_expand` finds the best set of texels to give to one
+ * sheet, by a minimum cut (an expansion move [Boykov01]). The first picture
+ * over an empty one, an image cut of [Efros01], a corner, the ends of a strip
+ * and the inside of a tile are all this one move.
+ *
+ * [Boykov01] Boykov, Veksler, Zabih: Fast approximate energy minimization via
+ * graph cuts. PAMI 23.
+ * [Kwatra03] Kwatra, Schoedl, Essa, Turk, Bobick: Graphcut textures. */
+#ifndef OTX_TILING_QUILT_H
+#define OTX_TILING_QUILT_H
+
+#include "tiling/texel_pool.h"
+
+enum
+{
+    OTX_QUILT_MAX_SHEETS = 64,
+    OTX_QUILT_FREE = 255
+};
+
+typedef struct otx_quilt
+{
+    const otx_texel_pool *pool;
+    int32_t width, height;
+    int32_t sheet_count;
+    otx_texel_map sheets[OTX_QUILT_MAX_SHEETS]; /* of the quilt's size */
+    uint8_t *labels; /* [height * width] the sheet that shows */
+    uint8_t *locks;  /* [height * width] the sheet that must, or
+                      * OTX_QUILT_FREE */
+    int64_t cost;    /* of all seams */
+} otx_quilt;
+
+/* What the seams of a quilt are like. */
+typedef struct otx_quilt_seams
+{
+    int64_t length; /* pairs of neighbours with a seam between them */
+    double mean;    /* Lab distance of the sheets along them */
+} otx_quilt_seams;
+
+/* An empty quilt in `arena`: no sheets, all free, labels 0. */
+otx_status otx_quilt_create(
+    otx_run *run, otx_arena *arena, const otx_texel_pool *pool, int32_t width,
+    int32_t height, otx_quilt *out);
+
+/* Adds a sheet, whose texels the quilt borrows, and returns its number, -1
+ * when there are too many. Sheets may have holes (OTX_TEXEL_NONE). */
+int32_t otx_quilt_add(otx_quilt *quilt, otx_texel_map sheet);
+
+/* Shows `sheet` wherever it may be, regardless of seams. */
+void otx_quilt_fill(otx_quilt *quilt, int32_t sheet);
+
+/* Gives `sheet` the texels that make the seams cheapest, and the others stay
+ * as they are. The cost never rises. */
+otx_status otx_quilt_expand(otx_run *run, otx_quilt *quilt, int32_t sheet);
+
+/* Computes quilt->cost from the labels. */
+void otx_quilt_price(otx_quilt *quilt);
+
+otx_quilt_seams otx_quilt_measure(const otx_quilt *quilt);
+
+/* The texel that shows. */
+static inline int32_t
+otx_quilt_texel(const otx_quilt *quilt, int32_t x, int32_t y)
+{
+    const size_t at = (size_t)y * (size_t)quilt->width + (size_t)x;
+
+    return quilt->sheets[quilt->labels[at]].texels[at];
+}
+
+#endif

@@ -1,0 +1,84 @@
+/* strip.c -- an edge sewn to its corners. */
+#include "tiling/strip.h"
+
+enum
+{
+    EDGE,
+    START,
+    END
+};
+
+/* The corner around t = `at` as a sheet: all of its reach along t, which is
+ * how far a cut may wander. */
+static otx_status
+lay_corner(
+    otx_run *run, const otx_strip_sizes *sizes, const otx_corner *corner,
+    int32_t at, otx_quilt *quilt)
+{
+    otx_texel_map sheet;
+    int32_t *texel;
+
+    OTX_TRY(otx_texel_map_create(
+        run, run->scratch, sizes->side, 2 * sizes->reach, &sheet));
+    texel = sheet.texels;
+    for (int32_t d = -sizes->reach; d < sizes->reach; ++d)
+        for (int32_t t = 0; t < sizes->side; ++t)
+        {
+            const int32_t x = t - at;
+
+            *texel++ = x >= -sizes->reach && x < sizes->reach
+                           ? otx_corner_texel(corner, x, d)
+                           : OTX_TEXEL_NONE;
+        }
+    otx_quilt_add(quilt, sheet);
+    return OSDTEX_OK;
+}
+
+static void
+lock_ends(const otx_strip_sizes *sizes, otx_quilt *quilt)
+{
+    uint8_t *lock = quilt->locks;
+
+    for (int32_t d = 0; d < quilt->height; ++d)
+        for (int32_t t = 0; t < quilt->width; ++t, ++lock)
+        {
+            if (t < sizes->core)
+                *lock = START;
+            else if (t >= sizes->side - sizes->core)
+                *lock = END;
+        }
+}
+
+otx_status
+otx_strip_build(
+    otx_run *run, const otx_texel_pool *pool, const otx_strip_sizes *sizes,
+    const otx_texel_map *edge, const otx_corner *start, const otx_corner *end,
+    otx_strip *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    otx_quilt quilt;
+    int32_t *texel;
+
+    OTX_TRY(otx_texel_map_create(
+        run, run->arena, sizes->side, 2 * sizes->reach, &out->map));
+    OTX_TRY(otx_quilt_create(
+        run, run->scratch, pool, sizes->side, 2 * sizes->reach, &quilt));
+    otx_quilt_add(&quilt, *edge);
+    OTX_TRY(lay_corner(run, sizes, start, 0, &quilt));
+    OTX_TRY(lay_corner(run, sizes, end, sizes->side, &quilt));
+    lock_ends(sizes, &quilt);
+    otx_quilt_fill(&quilt, START);
+    otx_quilt_fill(&quilt, END);
+    otx_quilt_fill(&quilt, EDGE);
+    otx_quilt_price(&quilt);
+    OTX_TRY(otx_quilt_expand(run, &quilt, START));
+    OTX_TRY(otx_quilt_expand(run, &quilt, END));
+    texel = out->map.texels;
+    for (int32_t d = 0; d < quilt.height; ++d)
+        for (int32_t t = 0; t < quilt.width; ++t)
+            *texel++ = otx_quilt_texel(&quilt, t, d);
+    out->cost = quilt.cost;
+    out->seam = otx_quilt_measure(&quilt).mean;
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}

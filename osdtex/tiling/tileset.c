@@ -1,0 +1,346 @@
+/* tileset.c -- from options to a picture of tiles. */
+#include "tiling/tileset.h"
+#include "tiling/template.h"
+
+#include <math.h>
+#include <string.h>
+
+enum
+{
+    DEFAULT_CELL = 128,
+    PIECE = 8, /* tiles between two looks at the clock */
+    RAY = 2    /* texels beside a ray that a corner keeps, see corner.c */
+};
+
+static const char STAGE[] = "tiles";
+
+static bool
+is_power_of_two(int32_t value)
+{
+    return value > 0 && (value & (value - 1)) == 0;
+}
+
+static otx_strip_sizes
+sizes_of(const otx_tile_layout *layout)
+{
+    const int32_t side = otx_tile_layout_side(layout);
+
+    return (otx_strip_sizes){
+        .side = side,
+        .gutter = layout->gutter,
+        .core = layout->gutter + RAY,
+        .reach = side / 4,
+    };
+}
+
+static otx_status
+check_options(otx_run *run, const otx_tileset_options *o)
+{
+    if (o->boundaries < 1 || o->boundaries > 3)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "a tiled texture has 1, 2 or 3 boundaries, not %d",
+            (int)o->boundaries);
+    if (o->corners < 1 || o->corners > OTX_TILE_LAYOUT_MAX_CORNERS)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "a tiled texture has 1 to %d kinds of corners, not %d",
+            (int)OTX_TILE_LAYOUT_MAX_CORNERS, (int)o->corners);
+    if (o->cell != 0 &&
+        (!is_power_of_two(o->cell) || o->cell < OTX_TILE_LAYOUT_MIN_CELL ||
+         o->cell > OTX_TILE_LAYOUT_MAX_CELL))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "the tile size is a power of two from %d to %d texels, not %d",
+            (int)OTX_TILE_LAYOUT_MIN_CELL, (int)OTX_TILE_LAYOUT_MAX_CELL,
+            (int)o->cell);
+    if (!is_power_of_two(o->gutter))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "the gutter is a power of two of texels, such as 4, not %d",
+            (int)o->gutter);
+    if (o->edge_count > o->boundaries * (o->oriented ? 2 : 1))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "there are %d edge templates for %d boundaries; give one for each "
+            "at most",
+            (int)o->edge_count, (int)o->boundaries * (o->oriented ? 2 : 1));
+    return OSDTEX_OK;
+}
+
+/* The largest cell up to the usual one of which one and a half fit into the
+ * picture, so that there is something to choose. */
+static int32_t
+default_cell(const otx_exemplar *exemplar)
+{
+    const int32_t side = exemplar->linear.width < exemplar->linear.height
+                             ? exemplar->linear.width
+                             : exemplar->linear.height;
+    int32_t cell = DEFAULT_CELL;
+
+    while (cell > OTX_TILE_LAYOUT_MIN_CELL && 3 * cell > 2 * side)
+        cell /= 2;
+    return cell;
+}
+
+static otx_status
+check_fit(
+    otx_run *run, const otx_exemplar *exemplar, const otx_tile_layout *layout)
+{
+    const int32_t side = otx_tile_layout_side(layout);
+    const int32_t width = exemplar->linear.width;
+    const int32_t height = exemplar->linear.height;
+
+    if (8 * layout->gutter > layout->cell)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "a gutter of %d texels leaves too little of tiles of %d; the tile "
+            "size must be 8 gutters or more",
+            (int)layout->gutter, (int)layout->cell);
+    if (side > width || side > height)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE,
+            (otx_where){exemplar->source_path, 0, -1, -1},
+            "the picture has %d x %d texels and a tile needs %d x %d of them; "
+            "take smaller tiles (--tile-size) or a larger picture",
+            (int)width, (int)height, (int)side, (int)side);
+    return OSDTEX_OK;
+}
+
+static bool
+is_inside(const otx_exemplar *e, otx_vec2 p, double reach)
+{
+    return (e->wrap_x || (p.x >= reach && p.x <= e->linear.width - reach)) &&
+           (e->wrap_y || (p.y >= reach && p.y <= e->linear.height - reach));
+}
+
+/* Templates of the user must lie in the picture. */
+static otx_status
+check_templates(
+    otx_run *run, const otx_exemplar *exemplar,
+    const otx_tileset_options *options, const otx_strip_sizes *sizes)
+{
+    if (options->has_corner &&
+        !(options->corner.x >= sizes->reach &&
+          options->corner.x <= exemplar->linear.width - sizes->reach &&
+          options->corner.y >= sizes->reach &&
+          options->corner.y <= exemplar->linear.height - sizes->reach))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "the corner template needs %d texels of picture on all sides",
+            (int)sizes->reach);
+    for (int32_t i = 0; i < options->edge_count; ++i)
+    {
+        const otx_tileset_edge *e = &options->edges[i];
+        const double step = e->length > 0.0 ? e->length / sizes->side : 1.0;
+        const otx_vec2 turn = otx_vec2_polar(e->angle);
+
+        for (int32_t k = 0; k < 4; ++k)
+        {
+            const otx_vec2 corner = {
+                step * sizes->side * (k & 1 ? 0.5 : -0.5),
+                step * sizes->reach * (k & 2 ? 1.0 : -1.0)};
+            const otx_vec2 p =
+                otx_vec2_add(e->middle, otx_vec2_mul(turn, corner));
+
+            /* Written so that NaN is refused too. */
+            if (!is_inside(exemplar, p, 0.0))
+                return otx_fail(
+                    run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+                    "edge template %d leaves the picture; it covers %.0f x "
+                    "%.0f texels around its middle",
+                    (int)i + 1, step * sizes->side, 2.0 * step * sizes->reach);
+        }
+    }
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_tileset_plan(
+    otx_run *run, const otx_exemplar *exemplar,
+    const otx_tileset_options *options, otx_tile_layout *out)
+{
+    OTX_TRY(check_options(run, options));
+    *out = (otx_tile_layout){
+        .boundaries = options->boundaries * (options->oriented ? 2 : 1),
+        .corners = options->corners,
+        .cell = options->cell ? options->cell : default_cell(exemplar),
+        .gutter = options->gutter,
+        .oriented = options->oriented,
+        .source_width = exemplar->linear.width,
+        .seed = run->seed,
+        .name_count = options->names ? options->name_count : 0,
+        .names = options->names,
+    };
+    return check_fit(run, exemplar, out);
+}
+
+/* ------------------------------------------------------------- all tiles */
+
+typedef struct filler
+{
+    const otx_run *run;
+    const otx_ring_search *search;
+    const otx_texel_pool *pool;
+    const otx_interior_options *options;
+    otx_tileset *set;
+    otx_quilt_seams *seams; /* [tile_count] */
+    int32_t first;          /* tile of the piece at hand */
+} filler;
+
+static void
+copy_texels(
+    const otx_texel_pool *pool, const otx_texel_map *map, int32_t x0,
+    int32_t y0, otx_image *image)
+{
+    const size_t bytes = (size_t)pool->channels * sizeof(float);
+
+    for (int32_t y = 0; y < map->height; ++y)
+        for (int32_t x = 0; x < map->width; ++x)
+            memcpy(
+                otx_image_at(image, x0 + x, y0 + y),
+                pool->linear + (size_t)otx_texel_map_at(map, x, y) *
+                                   (size_t)pool->channels,
+                bytes);
+}
+
+static otx_status
+fill_tile(void *context, int64_t index, otx_worker *worker)
+{
+    filler *f = context;
+    const otx_tile_layout *layout = &f->set->layout;
+    const int32_t cell = f->first + (int32_t)index;
+    const otx_tile_name name = otx_tile_layout_name(
+        layout, layout->names ? layout->names[cell] : cell);
+    otx_run run = *f->run;
+    otx_texel_map map;
+    int32_t x, y;
+
+    run.arena = run.scratch = worker->scratch;
+    run.pool = NULL;
+    OTX_TRY(otx_texel_map_create(
+        &run, run.scratch, layout->cell, layout->cell, &map));
+    OTX_TRY(otx_interior_build(
+        &run, f->search, &name, f->options, &map, &f->seams[cell]));
+    otx_tile_layout_origin(layout, cell, &x, &y);
+    copy_texels(f->pool, &map, x, y, &f->set->linear);
+    return OSDTEX_OK;
+}
+
+/* In pieces, so that the user can watch and cancel. */
+static otx_status
+fill_all(otx_run *run, filler *f)
+{
+    const int32_t count = f->set->tile_count;
+
+    for (f->first = 0; f->first < count; f->first += PIECE)
+    {
+        const int32_t left = count - f->first;
+
+        OTX_TRY(otx_progress(run, STAGE, (double)f->first / count));
+        OTX_TRY(
+            otx_pool_for(run->pool, left < PIECE ? left : PIECE, fill_tile, f));
+    }
+    return otx_progress(run, STAGE, 1.0);
+}
+
+static void
+sum_up(const otx_frame_kit *kit, const filler *f, otx_tileset *set)
+{
+    const int32_t strips =
+        kit->boundary_count * kit->corner_count * kit->corner_count;
+    double length = 0.0;
+
+    for (int32_t i = 0; i < kit->corner_count; ++i)
+        set->corner_seam += kit->corners[i].seam / kit->corner_count;
+    for (int32_t i = 0; i < strips; ++i)
+        set->strip_seam += kit->strips[i].seam / strips;
+    for (int32_t i = 0; i < set->tile_count; ++i)
+    {
+        set->inner_seam += f->seams[i].mean * (double)f->seams[i].length;
+        length += (double)f->seams[i].length;
+    }
+    if (length > 0.0)
+        set->inner_seam /= length;
+    set->random_pair = f->pool->random_pair;
+}
+
+static otx_status
+create_picture(otx_run *run, const otx_exemplar *exemplar, otx_tileset *set)
+{
+    otx_tile_layout *layout = &set->layout;
+    size_t floats;
+
+    OTX_TRY(otx_tile_layout_arrange(run, layout));
+    set->tile_count =
+        layout->names ? layout->name_count : layout->columns * layout->rows;
+    OTX_TRY(otx_image_create(
+        run, run->arena, layout->columns * layout->cell,
+        layout->rows * layout->cell, exemplar->linear.channels, &set->linear));
+    floats = (size_t)set->linear.width * (size_t)set->linear.height *
+             (size_t)set->linear.channels;
+    memset(set->linear.pixels, 0, floats * sizeof(float));
+    return OSDTEX_OK;
+}
+
+static void
+close_arena(void *arena)
+{
+    otx_arena_destroy(arena);
+}
+
+/* An arena that dies with the scratch mark: templates outlive many marks. */
+static otx_status
+open_arena(otx_run *run, otx_arena **out)
+{
+    *out = otx_arena_create(run->heap);
+    if (!*out)
+        return otx_fail_memory(run, STAGE);
+    if (otx_arena_defer(run->scratch, close_arena, *out))
+        return OSDTEX_OK;
+    otx_arena_destroy(*out);
+    return otx_fail_memory(run, STAGE);
+}
+
+otx_status
+otx_tileset_make(
+    otx_run *run, const otx_exemplar *exemplar,
+    const otx_tileset_options *options, otx_tileset *out)
+{
+    static const otx_interior_options interior = {6, 2, 2};
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    otx_frame_kit kit = {0};
+    otx_ring_search search;
+    otx_texel_pool pool;
+    otx_run own = *run;
+    filler f;
+
+    *out = (otx_tileset){0};
+    OTX_TRY(otx_tileset_plan(run, exemplar, options, &out->layout));
+    kit.sizes = sizes_of(&out->layout);
+    kit.boundary_count = out->layout.boundaries;
+    kit.corner_count = out->layout.corners;
+    OTX_TRY(check_templates(run, exemplar, options, &kit.sizes));
+    OTX_TRY(create_picture(run, exemplar, out));
+    OTX_TRY(open_arena(run, &own.arena));
+    OTX_TRY(otx_texel_pool_create(
+        run, own.arena, exemplar, otx_template_extra(&kit.sizes, options),
+        &pool));
+    OTX_TRY(otx_template_kit(&own, &pool, options, &out->layout, 0, &kit));
+    OTX_TRY(otx_ring_search_create(
+        &own, &pool, &kit, &out->layout, &options->background, &search));
+    f = (filler){
+        .run = run,
+        .search = &search,
+        .pool = &pool,
+        .options = &interior,
+        .set = out,
+        .seams = OTX_ZNEW(own.arena, otx_quilt_seams, out->tile_count),
+    };
+    if (!f.seams)
+        return otx_fail_memory(run, STAGE);
+    OTX_TRY(fill_all(run, &f));
+    sum_up(&kit, &f, out);
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
