@@ -13,7 +13,23 @@ static const otx_flag_id map_flags[] = {
     OTX_FLAG_COLORCONFIG, OTX_FLAG_THREADS,     OTX_FLAG_MEMORY_LIMIT,
     OTX_FLAG_DRY_RUN,     OTX_FLAG_UPDATE,      OTX_FLAG_VERBOSE,
     OTX_FLAG_QUIET,       OTX_FLAG_HELP,        OTX_FLAG_VERSION,
-    OTX_FLAG_COUNT};
+    OTX_FLAG_BAKE,        OTX_FLAG_BAKE_UVS,    OTX_FLAG_RESOLUTION,
+    OTX_FLAG_MARGIN,      OTX_FLAG_SEAM_BLEND,  OTX_FLAG_TEXELS_PER_UNIT,
+    OTX_FLAG_EXTRA,       OTX_FLAG_PREVIEW_PNG, OTX_FLAG_COUNT};
+
+static const otx_flag_id bake_flags[] = {
+    OTX_FLAG_OUTPUT,       OTX_FLAG_METHOD,      OTX_FLAG_SCALE,
+    OTX_FLAG_LEVEL,        OTX_FLAG_SEED,        OTX_FLAG_SET,
+    OTX_FLAG_TILE_LEVEL,   OTX_FLAG_FIRST_PATCH, OTX_FLAG_PREVIEW,
+    OTX_FLAG_JSON_REPORT,  OTX_FLAG_BAKE_UVS,    OTX_FLAG_RESOLUTION,
+    OTX_FLAG_MARGIN,       OTX_FLAG_SEAM_BLEND,  OTX_FLAG_TEXELS_PER_UNIT,
+    OTX_FLAG_EXTRA,        OTX_FLAG_PREVIEW_PNG, OTX_FLAG_SCHEME,
+    OTX_FLAG_BOUNDARY,     OTX_FLAG_FVAR,        OTX_FLAG_FROM,
+    OTX_FLAG_TO,           OTX_FLAG_MATCH_SPACE, OTX_FLAG_MATCH_IN,
+    OTX_FLAG_WRAP,         OTX_FLAG_COLORCONFIG, OTX_FLAG_THREADS,
+    OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_DRY_RUN,     OTX_FLAG_UPDATE,
+    OTX_FLAG_VERBOSE,      OTX_FLAG_QUIET,       OTX_FLAG_HELP,
+    OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
 
 static const otx_flag_id tiles_flags[] = {
     OTX_FLAG_OUTPUT,
@@ -94,6 +110,18 @@ static const otx_command commands[] = {
      "osdtex tiles wood.exr -o wood_tiles.exr --oriented --for shirt.obj "
      "--tile-level 2\n",
      tiles_flags, otx_tiles_command_run},
+    {"bake", "CAGE.obj EXEMPLAR", 2, 2,
+     "texture a cage and bake the result onto its UVs",
+     "Textures the cage as `osdtex map` does, but keeps it as it is: writes "
+     "NAME_cage.obj\n(the cage, on its own UVs or on an atlas), NAME_cage.mtl, "
+     "its textures\nNAME.1001.exr and on (mip-mapped, a UDIM tile each), and "
+     "NAME.usda and NAME.mtlx\nfor what OBJ and MTL cannot say. Render it "
+     "subdivided, with the UV rule that\nNAME_cage.obj states.",
+     "osdtex bake models/cages/creature.obj models/exemplars/pebbles_tile.png "
+     "\\\n    -o pebbles.obj --resolution 2048\n"
+     "osdtex bake shirt.obj weave.exr -o out/shirt.obj --uvs atlas \\\n"
+     "    --texels-per-unit 40 --preview-png\n",
+     bake_flags, otx_bake_command_run},
     {"render", "MODEL.obj", 1, 1, "take a picture of a textured model",
      "Ray-traces an OBJ with the textures that its MTL names. PNG is for the "
      "eye\n(sRGB), EXR is scene-linear.",

@@ -37,6 +37,7 @@ const char *otx_command_name(int index);
 
 int otx_map_command_run(const otx_flag_values *values);
 int otx_tiles_command_run(const otx_flag_values *values);
+int otx_bake_command_run(const otx_flag_values *values);
 int otx_render_command_run(const otx_flag_values *values);
 int otx_info_command_run(const otx_flag_values *values);
 int otx_methods_command_run(const otx_flag_values *values);

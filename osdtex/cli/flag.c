@@ -10,7 +10,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_OUTPUT] =
         {"output", 'o', OTX_FLAG_GROUP_MAIN, "FILE",
          "what to write; map: DIR/NAME.obj, with NAME.mtl and NAME.exr beside "
-         "it; render: a .png or .exr; tiles: an .exr"},
+         "it; render: a .png or .exr; tiles: an .exr; bake: the name of the "
+         "other files, DIR/NAME.obj"},
     [OTX_FLAG_METHOD] =
         {"method", 0, OTX_FLAG_GROUP_MAIN, "NAME",
          "how to texture; `osdtex methods` lists them (default: the first)"},
@@ -72,6 +73,35 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"for", 0, OTX_FLAG_GROUP_MAIN, "CAGE.obj",
          "make only the tiles that `osdtex map CAGE.obj` needs with the same "
          "--level, --tile-level, --scale, --seed and --set"},
+    [OTX_FLAG_BAKE] =
+        {"bake", 0, OTX_FLAG_GROUP_BAKE, NULL,
+         "also write what `osdtex bake` writes"},
+    [OTX_FLAG_BAKE_UVS] =
+        {"uvs", 0, OTX_FLAG_GROUP_BAKE, "auto|own|atlas",
+         "texture coordinates to bake onto: the cage's own, or an atlas with a "
+         "block for every face (default auto: its own where it has UVs)"},
+    [OTX_FLAG_RESOLUTION] =
+        {"resolution", 0, OTX_FLAG_GROUP_BAKE, "PX",
+         "texels of a UDIM tile's side (default 4096)"},
+    [OTX_FLAG_TEXELS_PER_UNIT] =
+        {"texels-per-unit", 0, OTX_FLAG_GROUP_BAKE, "D",
+         "density of an atlas, which takes as many UDIM tiles as that needs "
+         "(default: what fills one tile)"},
+    [OTX_FLAG_MARGIN] =
+        {"margin", 0, OTX_FLAG_GROUP_BAKE, "PX",
+         "texels beyond the rims of charts that go on as the surface does; of "
+         "an atlas 4, 8, 16, 32 or 64 (default: up to 16, as there is room)"},
+    [OTX_FLAG_SEAM_BLEND] =
+        {"seam-blend", 0, OTX_FLAG_GROUP_BAKE, "PX",
+         "texels over which patches are blended where they meet (default 0: "
+         "not at all)"},
+    [OTX_FLAG_EXTRA] =
+        {"extra", 0, OTX_FLAG_GROUP_BAKE, "patch,uv,stretch,seam",
+         "also bake these, as 32-bit NAME_patch.<UDIM>.exr and so on"},
+    [OTX_FLAG_PREVIEW_PNG] =
+        {"preview-png", 0, OTX_FLAG_GROUP_BAKE, NULL,
+         "also write NAME.<UDIM>.png and NAME_preview.mtl for programs that "
+         "read no EXR"},
     [OTX_FLAG_PREVIEW] =
         {"preview", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "also render the result to a .png or .exr"},
@@ -177,8 +207,10 @@ const char *
 otx_flag_group_title(otx_flag_group group)
 {
     static const char *const titles[] = {
-        "Options",     "The cage",       "The exemplar and its colours",
-        "The picture", "Common options", NULL};
+        "Options",     "The bake",
+        "The cage",    "The exemplar and its colours",
+        "The picture", "Common options",
+        NULL};
 
     return titles[group];
 }

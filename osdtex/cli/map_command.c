@@ -1,5 +1,6 @@
-/* map_command.c -- osdtex map: a cage and an exemplar in, a textured model
- * out. */
+/* map_command.c -- osdtex map and osdtex bake: a cage and an exemplar in, a
+ * textured model out, or the cage with textures. */
+#include "cli/bake_flags.h"
 #include "cli/inputs.h"
 #include "cli/session.h"
 #include "cli/up_to_date.h"
@@ -27,7 +28,10 @@ typedef struct job
     osdtex_surface_options surface_options;
     osdtex_map_options map_options;
     osdtex_setting settings[OTX_FLAG_SETTINGS_MAX + 1];
+    osdtex_bake_options bake_options;
+    bool maps, bakes; /* which files are asked for */
     char obj[PATH_BYTES], mtl[PATH_BYTES], exr[PATH_BYTES];
+    char cage_obj[PATH_BYTES], cage_mtl[PATH_BYTES];
     const char *preview, *report; /* NULL none */
     bool has_hash;
     char hash[OSDTEX_HASH_BYTES];
@@ -39,8 +43,17 @@ typedef struct job
     osdtex_image *picture;
 } job;
 
-/* NAME.mtl and NAME.exr beside NAME.obj; blanks become `_` there, as readers
- * split at them. */
+/* FOLDER/NAME of an OBJ and another end. */
+static bool
+name_beside(const char *obj, const char *suffix, char out[PATH_BYTES])
+{
+    const int base = (int)strlen(obj) - 4;
+
+    return snprintf(out, PATH_BYTES, "%.*s%s", base, obj, suffix) < PATH_BYTES;
+}
+
+/* NAME.mtl and NAME.exr beside NAME.obj, NAME_cage.obj and NAME_cage.mtl of a
+ * bake; blanks become `_` there, as readers split at them. */
 static bool
 name_outputs(job *j)
 {
@@ -51,7 +64,7 @@ name_outputs(job *j)
     if (!path || !otx_value_has_extension(path, ".obj") ||
         path[length - 5] == '/' || length >= PATH_BYTES)
     {
-        otx_session_refuse("osdtex map writes an OBJ: -o DIR/NAME.obj");
+        otx_session_refuse("the output is called NAME.obj: -o DIR/NAME.obj");
         return false;
     }
     memcpy(j->obj, path, length + 1);
@@ -63,7 +76,11 @@ name_outputs(job *j)
     memcpy(j->mtl + length - 4, ".mtl", 5);
     memcpy(j->exr, j->mtl, length + 1);
     memcpy(j->exr + length - 4, ".exr", 5);
-    return true;
+    if (name_beside(j->mtl, "_cage.obj", j->cage_obj) &&
+        name_beside(j->mtl, "_cage.mtl", j->cage_mtl))
+        return true;
+    otx_session_refuse("'%s' is too long a name", path);
+    return false;
 }
 
 static bool
@@ -87,9 +104,15 @@ static bool
 outputs_are_apart(const job *j)
 {
     const char *const outputs[] = {
-        j->obj, j->mtl, j->exr, j->preview, j->report};
+        j->maps ? j->obj : NULL,
+        j->maps ? j->mtl : NULL,
+        j->maps ? j->exr : NULL,
+        j->bakes ? j->cage_obj : NULL,
+        j->bakes ? j->cage_mtl : NULL,
+        j->preview,
+        j->report};
 
-    for (int i = 0; i < 5; ++i)
+    for (int i = 0; i < 7; ++i)
     {
         for (int k = 0; outputs[i] && k < 2; ++k)
         {
@@ -224,9 +247,13 @@ parse_first_patch(job *j)
 }
 
 static bool
-parse(job *j, const otx_flag_values *values)
+parse(job *j, const otx_flag_values *values, bool bake_only)
 {
-    *j = (job){.values = values};
+    *j = (job){
+        .values = values,
+        .maps = !bake_only,
+        .bakes = bake_only || values->text[OTX_FLAG_BAKE],
+    };
     j->surface_options = osdtex_surface_options_default();
     j->map_options = osdtex_map_options_default();
     j->map_options.method = values->text[OTX_FLAG_METHOD];
@@ -234,8 +261,8 @@ parse(job *j, const otx_flag_values *values)
     j->report = values->text[OTX_FLAG_JSON_REPORT];
     if (!otx_inputs_cage(values, &j->cage_options) ||
         !otx_inputs_exemplar(values, &j->exemplar_options) ||
-        !name_outputs(j) || !parse_numbers(j) || !parse_tile_level(j) ||
-        !parse_first_patch(j))
+        !otx_bake_flags_parse(values, &j->bake_options) || !name_outputs(j) ||
+        !parse_numbers(j) || !parse_tile_level(j) || !parse_first_patch(j))
         return false;
     if (!is_picture(j->preview))
     {
@@ -249,8 +276,12 @@ parse(job *j, const otx_flag_values *values)
 static bool
 is_done(const job *j)
 {
-    return j->has_hash && otx_up_to_date_check(j->obj, j->hash) &&
-           access(j->mtl, F_OK) == 0 && access(j->exr, F_OK) == 0 &&
+    return j->has_hash &&
+           (!j->maps ||
+            (otx_up_to_date_check(j->obj, j->hash) &&
+             access(j->mtl, F_OK) == 0 && access(j->exr, F_OK) == 0)) &&
+           (!j->bakes || (otx_up_to_date_check(j->cage_obj, j->hash) &&
+                          access(j->cage_mtl, F_OK) == 0)) &&
            (!j->preview || access(j->preview, F_OK) == 0) &&
            (!j->report || access(j->report, F_OK) == 0);
 }
@@ -306,9 +337,26 @@ render_preview(otx_session *session, job *j)
 }
 
 static osdtex_status
-write_outputs(otx_session *session, const job *j)
+write_models(
+    otx_session *session, const job *j, const char *const *comments, int count)
 {
     osdtex_write_options options = osdtex_write_options_default();
+    osdtex_bake_options bake = j->bake_options;
+    osdtex_status status = OSDTEX_OK;
+
+    options.comments = bake.comments = comments;
+    options.comment_count = bake.comment_count = count;
+    if (j->maps)
+        status = osdtex_mapping_write(
+            session->context, j->mapping, j->obj, &options);
+    if (status == OSDTEX_OK && j->bakes)
+        status = osdtex_bake(session->context, j->mapping, j->obj, &bake);
+    return status;
+}
+
+static osdtex_status
+write_outputs(otx_session *session, const job *j)
+{
     char made[64], hash[128];
     const char *const comments[] = {made, hash};
     osdtex_status status;
@@ -317,10 +365,7 @@ write_outputs(otx_session *session, const job *j)
         made, sizeof made, "osdtex %s, in the units of the cage",
         osdtex_version());
     snprintf(hash, sizeof hash, OTX_UP_TO_DATE_COMMENT "%s", j->hash);
-    options.comments = comments;
-    options.comment_count = j->has_hash ? 2 : 1;
-    status =
-        osdtex_mapping_write(session->context, j->mapping, j->obj, &options);
+    status = write_models(session, j, comments, j->has_hash ? 2 : 1);
     if (status == OSDTEX_OK && j->picture)
         status = osdtex_image_write(session->context, j->picture, j->preview);
     if (status == OSDTEX_OK && j->report)
@@ -339,12 +384,16 @@ say_plan(const job *j)
     printf(
         "would texture %s: %d faces at level %d\n"
         "with          %s: %d x %d, %g scene units wide\n"
-        "by            %s\n"
-        "into          %s, %s, %s\n",
+        "by            %s\n",
         j->values->operands[0], surface->face_count, surface->level,
         j->values->operands[1], e->width, e->height, j->map_options.scale,
-        j->map_options.method ? j->map_options.method : method.name, j->obj,
-        j->mtl, j->exr);
+        j->map_options.method ? j->map_options.method : method.name);
+    if (j->maps)
+        printf("into          %s, %s, %s\n", j->obj, j->mtl, j->exr);
+    if (j->bakes)
+        printf(
+            "baked into    %s, %s and their textures of %d texels\n",
+            j->cage_obj, j->cage_mtl, j->bake_options.resolution);
     if (j->preview)
         printf("preview       %s\n", j->preview);
     if (j->report)
@@ -356,10 +405,17 @@ say_done(otx_session *session, const job *j)
 {
     const osdtex_mapping_info *mapping = osdtex_mapping_describe(j->mapping);
 
-    otx_session_say(
-        session, "wrote %s, %s, %s: %d faces in %d patches, %.1f s", j->obj,
-        j->mtl, j->exr, mapping->face_count, mapping->patch_count,
-        otx_session_seconds(session));
+    if (j->maps)
+        otx_session_say(
+            session, "wrote %s, %s, %s: %d faces in %d patches, %.1f s", j->obj,
+            j->mtl, j->exr, mapping->face_count, mapping->patch_count,
+            otx_session_seconds(session));
+    if (j->bakes)
+        otx_session_say(
+            session,
+            "wrote %s, %s and their textures: %d faces in %d patches, %.1f s",
+            j->cage_obj, j->cage_mtl, mapping->face_count, mapping->patch_count,
+            otx_session_seconds(session));
     if (j->preview)
         otx_session_say(session, "wrote %s", j->preview);
     if (j->report)
@@ -404,14 +460,14 @@ clean_up(job *j)
     osdtex_cage_destroy(j->cage);
 }
 
-int
-otx_map_command_run(const otx_flag_values *values)
+static int
+run(const otx_flag_values *values, bool bake_only)
 {
     osdtex_status status;
     otx_session session;
     job j;
 
-    if (!parse(&j, values))
+    if (!parse(&j, values, bake_only))
         return OTX_EXIT_USAGE;
     if (!folder_is_writable(j.obj) || !folder_is_writable(j.preview) ||
         !folder_is_writable(j.report))
@@ -421,10 +477,23 @@ otx_map_command_run(const otx_flag_values *values)
         return session.exit_code;
     if (values->text[OTX_FLAG_UPDATE] && is_done(&j))
     {
-        otx_session_say(&session, "%s is up to date", j.obj);
+        otx_session_say(
+            &session, "%s is up to date", j.maps ? j.obj : j.cage_obj);
         return otx_session_end(&session, OSDTEX_OK);
     }
     status = texture(&session, &j);
     clean_up(&j);
     return otx_session_end(&session, status);
+}
+
+int
+otx_map_command_run(const otx_flag_values *values)
+{
+    return run(values, false);
+}
+
+int
+otx_bake_command_run(const otx_flag_values *values)
+{
+    return run(values, true);
 }

@@ -1,0 +1,325 @@
+/* atlas.c -- sizes from areas, shelves from sizes. */
+#include "bake/atlas.h"
+
+#include "math/vec.h"
+
+#include <string.h>
+
+static const char STAGE[] = "bake";
+
+enum
+{
+    SEARCH_STEPS = 40,
+    AUTO_MARGIN_MAX = 16
+};
+
+/* Cells of a packing, in texels. */
+typedef struct packing
+{
+    int32_t face_count;
+    int32_t side;        /* of a tile */
+    const double *roots; /* [face_count] square roots of the areas */
+    int32_t *order;      /* [face_count], large cells first */
+    int32_t *cells;      /* [face_count] sides */
+    int32_t *places;     /* [face_count * 3] x, y, tile */
+} packing;
+
+/* ---- sizes --------------------------------------------------------------- */
+
+static double
+polygon_area(const otx_surface *surface, int32_t face)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+    const int32_t *verts = leaf->face_verts + leaf->face_first[face];
+    const int32_t size = otx_level_face_size(leaf, face);
+    const otx_vec3 origin = otx_vec3_load(surface->points, verts[0]);
+    otx_vec3 sum = {0.0, 0.0, 0.0};
+
+    for (int32_t k = 2; k < size; ++k)
+        sum = otx_vec3_add(
+            sum, otx_vec3_cross(
+                     otx_vec3_sub(
+                         otx_vec3_load(surface->points, verts[k - 1]), origin),
+                     otx_vec3_sub(
+                         otx_vec3_load(surface->points, verts[k]), origin)));
+    return 0.5 * otx_vec3_length(sum);
+}
+
+/* Side of the square with the area of a cage face on the limit surface. */
+static double
+face_root(const otx_surface *surface, int32_t face)
+{
+    double area = 0.0;
+    int32_t first, end;
+
+    otx_surface_leaves(surface, 0, face, &first, &end);
+    for (int32_t f = first; f < end; ++f)
+        area += polygon_area(surface, f);
+    return sqrt(area);
+}
+
+/* Of a block of `texels` with its margins: a multiple of twice the margin that
+ * holds at least a block of that size, in a tile. */
+static int32_t
+cell_side(double texels, int32_t margin, int32_t side)
+{
+    const int32_t step = 2 * margin;
+    const int32_t most = side / step * step;
+    const double steps = ceil((texels + step) / step);
+
+    if (!(steps * step < most))
+        return most;
+    return steps > 2.0 ? (int32_t)steps * step : 2 * step;
+}
+
+/* ---- shelves --------------------------------------------------------------
+ */
+
+/* Places the cells and returns how many tiles they take. */
+static int32_t
+place(packing *p)
+{
+    int32_t x = 0, y = 0, height = 0, tile = 0;
+
+    for (int32_t i = 0; i < p->face_count; ++i)
+    {
+        const int32_t face = p->order[i];
+        const int32_t cell = p->cells[face];
+
+        if (x + cell > p->side)
+        {
+            x = 0;
+            y += height;
+            height = 0;
+        }
+        if (y + cell > p->side)
+        {
+            x = y = height = 0;
+            ++tile;
+        }
+        memcpy(
+            p->places + 3 * (size_t)face, (const int32_t[]){x, y, tile},
+            3 * sizeof *p->places);
+        x += cell;
+        /* The first of a shelf is the largest: the order is by size. */
+        height = height > cell ? height : cell;
+    }
+    return tile + 1;
+}
+
+static int32_t
+pack(packing *p, double density, int32_t margin)
+{
+    for (int32_t f = 0; f < p->face_count; ++f)
+        p->cells[f] = cell_side(density * p->roots[f], margin, p->side);
+    return place(p);
+}
+
+/* The largest density at which all cells fit one tile; 0 when none does. */
+static double
+fit(packing *p, int32_t margin)
+{
+    double low = 0.0, high = 0.0;
+
+    for (int32_t f = 0; f < p->face_count; ++f)
+        high = fmax(high, p->roots[f]);
+    /* Where the largest face alone fills the tile. */
+    high = high > 0.0 ? p->side / high : 1.0;
+    if (pack(p, low, margin) > 1)
+        return 0.0;
+    for (int32_t i = 0; i < SEARCH_STEPS; ++i)
+    {
+        const double middle = 0.5 * (low + high);
+
+        if (pack(p, middle, margin) > 1)
+            high = middle;
+        else
+            low = middle;
+    }
+    return low;
+}
+
+/* Share of the cells' texels that is not margin. */
+static double
+share_of_blocks(const packing *p, int32_t margin)
+{
+    double blocks = 0.0, cells = 0.0;
+
+    for (int32_t f = 0; f < p->face_count; ++f)
+    {
+        const double block = p->cells[f] - 2 * margin;
+
+        blocks += block * block;
+        cells += (double)p->cells[f] * p->cells[f];
+    }
+    return blocks / cells;
+}
+
+/* Settles density and margin, and leaves the packing as it then is. */
+static void
+settle(packing *p, const otx_atlas_options *options, otx_atlas *out)
+{
+    const bool free = options->margin == 0;
+    int32_t margin = free ? AUTO_MARGIN_MAX : options->margin;
+
+    for (;;)
+    {
+        out->margin = margin;
+        out->density =
+            options->density > 0.0 ? options->density : fit(p, margin);
+        out->tile_count = pack(p, out->density, margin);
+        if (!free || margin == OTX_ATLAS_MARGIN_MIN ||
+            (out->tile_count == 1 && share_of_blocks(p, margin) >= 0.5) ||
+            (options->density > 0.0 && share_of_blocks(p, margin) >= 0.5))
+            return;
+        margin /= 2;
+    }
+}
+
+/* Orders faces by area, ties by index, with a merge of neighbours: stable. */
+static bool
+sort_faces(otx_arena *scratch, packing *p)
+{
+    const int32_t n = p->face_count;
+    int32_t *from = p->order, *to = OTX_NEW(scratch, int32_t, n);
+
+    if (!to)
+        return false;
+    for (int32_t i = 0; i < n; ++i)
+        from[i] = i;
+    for (int64_t width = 1; width < n; width *= 2)
+    {
+        for (int64_t start = 0; start < n; start += 2 * width)
+        {
+            const int64_t middle = start + width < n ? start + width : n;
+            const int64_t end = start + 2 * width < n ? start + 2 * width : n;
+            int64_t a = start, b = middle;
+
+            for (int64_t k = start; k < end; ++k)
+                to[k] = b == end || (a < middle &&
+                                     p->roots[from[a]] >= p->roots[from[b]])
+                            ? from[a++]
+                            : from[b++];
+        }
+        int32_t *swap = from;
+
+        from = to;
+        to = swap;
+    }
+    p->order = from;
+    return true;
+}
+
+/* ---- coordinates --------------------------------------------------------- */
+
+/* Corner k of a face of n in the unit square: a quad fills it, a triangle
+ * takes half of it, others are regular. */
+static otx_vec2
+corner_in_block(int32_t n, int32_t k)
+{
+    static const otx_vec2 square[4] = {
+        {0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+
+    if (n == 4)
+        return square[k];
+    if (n == 3)
+        return square[k == 2 ? 3 : k];
+
+    const otx_vec2 ray = otx_vec2_polar(2.0 * OTX_PI * k / n);
+
+    return (otx_vec2){0.5 + 0.5 * ray.x, 0.5 + 0.5 * ray.y};
+}
+
+static void
+set_uvs(const otx_cage *cage, const packing *p, const otx_atlas *atlas)
+{
+    for (int32_t f = 0; f < cage->face_count; ++f)
+    {
+        const int32_t first = cage->face_first[f];
+        const int32_t n = cage->face_first[f + 1] - first;
+        const int32_t *at = p->places + 3 * (size_t)f;
+        const double block = p->cells[f] - 2 * atlas->margin;
+
+        for (int32_t k = 0; k < n; ++k)
+        {
+            const otx_vec2 c = corner_in_block(n, k);
+            float *uv = atlas->uvs + 2 * (size_t)(first + k);
+
+            uv[0] =
+                (float)(at[2] % OTX_ATLAS_COLUMNS + (at[0] + atlas->margin + block * c.x) / p->side);
+            uv[1] =
+                (float)(at[2] / OTX_ATLAS_COLUMNS + (at[1] + atlas->margin + block * c.y) / p->side);
+        }
+    }
+}
+
+static otx_status
+check(otx_run *run, const otx_atlas_options *options)
+{
+    const int32_t margin = options->margin;
+
+    if (margin != 0 &&
+        (margin < OTX_ATLAS_MARGIN_MIN || margin > OTX_ATLAS_MARGIN_MAX ||
+         (margin & (margin - 1)) != 0))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "the margin of an atlas is 4, 8, 16, 32 or 64 texels, not %d",
+            margin);
+    if (4 * (margin ? margin : OTX_ATLAS_MARGIN_MIN) > options->side)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "a texture of %d texels a side has no room for blocks with such "
+            "margins; raise the resolution",
+            options->side);
+    return OSDTEX_OK;
+}
+
+static otx_status
+check_tiles(otx_run *run, const otx_atlas *atlas)
+{
+    if (atlas->tile_count > OTX_ATLAS_COLUMNS * OTX_ATLAS_ROWS - 1)
+        return otx_fail(
+            run, OSDTEX_ERROR_LIMIT, STAGE, OTX_NOWHERE,
+            "the blocks fill %d tiles, more than UDIM can number; raise the "
+            "resolution or lower the texels per unit",
+            atlas->tile_count);
+    otx_note(
+        run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
+        "an atlas of %d tile(s), %.4g texels per scene unit, margins of %d "
+        "texels",
+        atlas->tile_count, atlas->density, atlas->margin);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_atlas_pack(
+    otx_run *run, const otx_surface *surface, const otx_atlas_options *options,
+    otx_atlas *out)
+{
+    const otx_cage *cage = surface->cage;
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const size_t faces = (size_t)cage->face_count;
+    double *roots = OTX_NEW(run->scratch, double, faces);
+    packing p = {
+        .face_count = cage->face_count,
+        .side = options->side,
+        .roots = roots,
+        .order = OTX_NEW(run->scratch, int32_t, faces),
+        .cells = OTX_NEW(run->scratch, int32_t, faces),
+        .places = OTX_NEW(run->scratch, int32_t, 3 * faces),
+    };
+
+    *out = (otx_atlas){0};
+    OTX_TRY(check(run, options));
+    out->uvs = OTX_NEW(run->arena, float, 2 * (size_t)cage->corner_count);
+    if (!roots || !p.order || !p.cells || !p.places || !out->uvs)
+        return otx_fail_memory(run, STAGE);
+    for (int32_t f = 0; f < cage->face_count; ++f)
+        roots[f] = face_root(surface, f);
+    if (!sort_faces(run->scratch, &p))
+        return otx_fail_memory(run, STAGE);
+    settle(&p, options, out);
+    set_uvs(cage, &p, out);
+    otx_arena_release(run->scratch, mark);
+    return check_tiles(run, out);
+}

@@ -1,0 +1,42 @@
+/* atlas.h -- a square block of texture for every face of the cage.
+ *
+ * Blocks are as large as their faces are on the limit surface, and packed in
+ * shelves; what does not fit goes to further UDIM tiles. A cell (a block and
+ * its margins) is a multiple of twice the margin and starts at one, so that
+ * texels of the first mip levels never straddle two cells. */
+#ifndef OTX_BAKE_ATLAS_H
+#define OTX_BAKE_ATLAS_H
+
+#include "surface/surface.h"
+
+enum
+{
+    OTX_ATLAS_MARGIN_MIN = 4,
+    OTX_ATLAS_MARGIN_MAX = 64,
+    OTX_ATLAS_COLUMNS = 10, /* UDIM: tiles in a row */
+    OTX_ATLAS_ROWS = 900    /* 1001 .. 9999 */
+};
+
+typedef struct otx_atlas_options
+{
+    int32_t side;   /* texels of a tile */
+    int32_t margin; /* texels around a block, a power of two; 0: the largest
+                     * up to 16 that costs no more than half of the texture */
+    double density; /* texels per scene unit, 0: what fills one tile */
+} otx_atlas_options;
+
+typedef struct otx_atlas
+{
+    float *uvs; /* [cage corner_count * 2] */
+    int32_t margin;
+    double density; /* as asked or found; blocks are rounded up from there */
+    int32_t tile_count;
+} otx_atlas;
+
+/* Holes get a block too: they may be closed later. ARGUMENT, LIMIT when the
+ * blocks do not fit 9999 - 1001 tiles, MEMORY. Made in run->arena. */
+otx_status otx_atlas_pack(
+    otx_run *run, const otx_surface *surface, const otx_atlas_options *options,
+    otx_atlas *out);
+
+#endif

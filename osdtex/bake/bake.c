@@ -1,0 +1,198 @@
+/* bake.c -- blocks on all threads, written in order.
+ *
+ * While one batch of blocks is computed, the one before is put: compressing
+ * and writing is one more index of the loop, and the first to be taken. */
+#include "bake/bake.h"
+
+#include <stdlib.h>
+
+static const char STAGE[] = "bake";
+
+enum
+{
+    BATCH = 64, /* blocks in flight, twice */
+    BLOCK_TEXELS = OTX_PAGE_BLOCK * OTX_PAGE_BLOCK
+};
+
+/* Blocks of a page from `first` on, and their pixels. */
+typedef struct batch
+{
+    int64_t first;
+    int32_t count;
+    float *pixels; /* [BATCH * BLOCK_TEXELS * channels] */
+} batch;
+
+typedef struct job
+{
+    const otx_bake *bake;
+    const otx_page *page;
+    const otx_bake_sink *sink;
+    batch done, next;
+    int64_t overlaps[BATCH];
+} job;
+
+static float *
+pixels_of(const job *j, const batch *b, int32_t i)
+{
+    return b->pixels +
+           (size_t)i * BLOCK_TEXELS * (size_t)j->bake->source.channels;
+}
+
+static otx_status
+put_batch(const job *j)
+{
+    for (int32_t i = 0; i < j->done.count; ++i)
+    {
+        const int64_t index = j->done.first + i;
+        const int32_t x = (int32_t)(index % j->page->columns);
+        const int32_t y = (int32_t)(index / j->page->columns);
+
+        OTX_TRY(j->sink->put(
+            j->sink->user, j->page->level, x, y, pixels_of(j, &j->done, i),
+            (ptrdiff_t)otx_texel_block_width(j->page, x) *
+                j->bake->source.channels));
+    }
+    return OSDTEX_OK;
+}
+
+/* Index 0 puts what is done; the others each make one block. */
+static otx_status
+work(void *context, int64_t index, otx_worker *worker)
+{
+    job *j = context;
+
+    if (index == 0)
+        return put_batch(j);
+
+    const int32_t i = (int32_t)index - 1;
+    const int64_t block = j->next.first + i;
+
+    j->overlaps[i] = 0;
+    return otx_texel_block(
+               &j->bake->source, j->page, (int32_t)(block % j->page->columns),
+               (int32_t)(block / j->page->columns), worker->scratch,
+               pixels_of(j, &j->next, i), &j->overlaps[i])
+               ? OSDTEX_OK
+               : OSDTEX_ERROR_MEMORY;
+}
+
+/* Level 0 is three quarters of the work, and so on. */
+static double
+fraction_of(const otx_page *page, int64_t block)
+{
+    const double blocks = (double)page->columns * page->columns;
+    const double before = 1.0 - pow(0.25, page->level);
+    const double tiles = page->layout->tile_count;
+
+    return (page->tile + before +
+            (1.0 - before) * 0.75 * (double)block / blocks) /
+           tiles;
+}
+
+static otx_status
+bake_page(otx_run *run, otx_bake *bake, job *j)
+{
+    const int64_t blocks = (int64_t)j->page->columns * j->page->columns;
+
+    for (int64_t first = 0; first < blocks || j->done.count > 0;)
+    {
+        const int64_t left = blocks - first;
+        otx_status status;
+
+        j->next.first = first;
+        j->next.count = left < BATCH ? (int32_t)left : BATCH;
+        OTX_TRY(otx_progress(run, STAGE, fraction_of(j->page, first)));
+        status = otx_pool_for(run->pool, j->next.count + 1, work, j);
+        if (status == OSDTEX_ERROR_MEMORY)
+            return otx_fail_memory(run, STAGE);
+        OTX_TRY(status);
+        for (int32_t i = 0; j->page->level == 0 && i < j->next.count; ++i)
+            bake->overlaps += j->overlaps[i];
+        first += j->next.count;
+
+        const batch swap = j->done;
+
+        j->done = j->next;
+        j->next = swap;
+    }
+    return OSDTEX_OK;
+}
+
+static bool
+make_batches(otx_run *run, const otx_bake *bake, const otx_page *page, job *out)
+{
+    const size_t values =
+        BATCH * (size_t)BLOCK_TEXELS * (size_t)bake->source.channels;
+
+    (void)page;
+    out->done.pixels = OTX_NEW(run->scratch, float, values);
+    out->next.pixels = OTX_NEW(run->scratch, float, values);
+    return out->done.pixels && out->next.pixels;
+}
+
+static otx_status
+bake_levels(
+    otx_run *run, otx_bake *bake, int32_t tile, const otx_bake_sink *sink)
+{
+    const otx_layout *layout = bake->source.layout;
+    const int32_t levels = otx_pyramid_count(layout->side, layout->side);
+    otx_page page = {.layout = layout, .tile = tile};
+    job *j = OTX_ZNEW(run->scratch, job, 1);
+
+    if (!j || !make_batches(run, bake, &page, j))
+        return otx_fail_memory(run, STAGE);
+    j->bake = bake;
+    j->sink = sink;
+    j->page = &page;
+    OTX_TRY(otx_page_find_rims(
+        run, run->scratch, layout, tile, &page.rims, &page.rim_count));
+    for (page.level = 0; page.level < levels; ++page.level)
+    {
+        const otx_arena_mark mark = otx_arena_here(run->scratch);
+
+        OTX_TRY(otx_page_build(run, run->scratch, &page));
+        OTX_TRY(bake_page(run, bake, j));
+        otx_arena_release(run->scratch, mark);
+    }
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_bake_tile(
+    otx_run *run, otx_bake *bake, int32_t tile, const otx_bake_sink *sink)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const otx_status status = bake_levels(run, bake, tile, sink);
+
+    otx_arena_release(run->scratch, mark);
+    return status;
+}
+
+otx_status
+otx_bake_create(
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    const otx_layout *layout, const otx_bake_options *options, otx_bake *out)
+{
+    *out = (otx_bake){
+        .source = {
+            .mapping = mapping,
+            .layout = layout,
+            .exemplar = exemplar,
+            .kind = options->kind,
+            .channels = options->kind == OTX_TEXEL_COLOR
+                            ? exemplar->linear.channels
+                            : 3,
+        }};
+    return otx_texture_create(
+        run, run->arena, &exemplar->linear, exemplar->wrap_x, exemplar->wrap_y,
+        &out->source.texture);
+}
+
+const char *
+otx_bake_kind_name(otx_texel_kind kind)
+{
+    static const char *const names[OTX_TEXEL_KIND_COUNT] = {
+        "color", "patch", "uv", "stretch", "seam"};
+
+    return names[kind];
+}

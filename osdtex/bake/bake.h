@@ -1,0 +1,45 @@
+/* bake.h -- a mapping evaluated into textures of the cage.
+ *
+ * Block by block, in the order of the file that they go to, so that a texture
+ * is never in memory as a whole: what is kept is some rows of blocks and the
+ * lists of what is in them. See docs/notes/bake.md. */
+#ifndef OTX_BAKE_BAKE_H
+#define OTX_BAKE_BAKE_H
+
+#include "bake/texel.h"
+
+/* Where the blocks go, in file order: levels from 0 up, rows from the top. The
+ * arguments are those of otx_exr_put. */
+typedef struct otx_bake_sink
+{
+    otx_status (*put)(
+        void *user, int32_t level, int32_t x, int32_t y, const float *pixels,
+        ptrdiff_t stride);
+    void *user;
+} otx_bake_sink;
+
+typedef struct otx_bake_options
+{
+    otx_texel_kind kind;
+} otx_bake_options;
+
+typedef struct otx_bake
+{
+    otx_texel_source source;
+    int64_t overlaps; /* samples of level 0 that several faces claim */
+} otx_bake;
+
+/* Prepares a bake, in run->arena; borrows all. MEMORY. */
+otx_status otx_bake_create(
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    const otx_layout *layout, const otx_bake_options *options, otx_bake *out);
+
+/* Bakes the layout's tile number `tile` (its index), all levels. The same bits
+ * for any number of threads. CANCELLED, MEMORY, what the sink returns. */
+otx_status otx_bake_tile(
+    otx_run *run, otx_bake *bake, int32_t tile, const otx_bake_sink *sink);
+
+/* "color", "patch", "uv", "stretch", "seam". */
+const char *otx_bake_kind_name(otx_texel_kind kind);
+
+#endif

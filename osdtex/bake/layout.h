@@ -1,0 +1,76 @@
+/* layout.h -- where on a texture every leaf face is.
+ *
+ * Either the cage's own UVs, carried to the leaves by the face-varying rule
+ * that the surface was refined with, or an atlas made here, which goes with
+ * the rule "linear all". UDIM tile 1001 + u + 10 v holds [u, u + 1] x
+ * [v, v + 1]. */
+#ifndef OTX_BAKE_LAYOUT_H
+#define OTX_BAKE_LAYOUT_H
+
+#include "mapping/mapping.h"
+
+typedef enum otx_layout_source
+{
+    OTX_LAYOUT_AUTO, /* the cage's UVs where it has them */
+    OTX_LAYOUT_OWN,
+    OTX_LAYOUT_ATLAS
+} otx_layout_source;
+
+typedef struct otx_layout_options
+{
+    otx_layout_source source;
+    int32_t side;   /* texels of a tile, up to OTX_IMAGE_MAX_SIDE */
+    int32_t margin; /* see atlas.h; 0 chooses */
+    double density; /* texels per scene unit; see atlas.h */
+} otx_layout_options;
+
+typedef struct otx_layout
+{
+    const otx_surface *surface;
+    bool is_atlas;
+    /* Of the cage, as the artist's file carries them. */
+    int32_t uv_count;
+    const float *uvs;        /* [uv_count * 2] */
+    const int32_t *face_uvs; /* [cage corner_count] */
+
+    const float *leaf_uvs;  /* [leaf corner_count * 2] */
+    const uint8_t *covered; /* [leaf face_count] 1: has a texture and a place */
+    /* Parts that hang together on the texture, numbered by their first face;
+     * -1 on faces that are not covered. */
+    const int32_t *chart; /* [leaf face_count] */
+    /* 1 where the edge from a corner to the next is the rim of a chart. */
+    const uint8_t *rim; /* [leaf corner_count] */
+
+    int32_t side;
+    int32_t margin; /* texels that are continued beyond a rim, at level 0 */
+    int32_t tile_count;
+    const int32_t *tiles;      /* [tile_count] UDIM numbers, ascending */
+    const int32_t *tile_first; /* [tile_count + 1] */
+    const int32_t
+        *tile_faces; /* leaf faces that reach into a tile, ascending */
+} otx_layout;
+
+/* Lays out what `mapping` covers; lives in run->arena and borrows the mapping's
+ * surface.
+ *
+ * ARGUMENT (options out of range, own UVs asked for and not there), LIMIT (UVs
+ * outside of the UDIM tiles 1001 to 9999), TOPOLOGY when nothing is covered,
+ * MEMORY. */
+otx_status otx_layout_build(
+    otx_run *run, const otx_mapping *mapping, const otx_layout_options *options,
+    otx_layout *out);
+
+/* Column and row of a UDIM tile, which is its lower left corner in UV. */
+static inline int32_t
+otx_layout_column(int32_t tile)
+{
+    return (tile - 1001) % 10;
+}
+
+static inline int32_t
+otx_layout_row(int32_t tile)
+{
+    return (tile - 1001) / 10;
+}
+
+#endif

@@ -1,0 +1,75 @@
+/* page.h -- one level of one UDIM tile, cut into blocks.
+ *
+ * Each level of the mip map is baked by itself, from the surface, with the
+ * footprint of its own texels: nothing is averaged over the picture, where
+ * texels side by side may come from opposite ends of the model. */
+#ifndef OTX_BAKE_PAGE_H
+#define OTX_BAKE_PAGE_H
+
+#include "bake/bin.h"
+#include "bake/layout.h"
+#include "math/vec.h"
+
+enum
+{
+    OTX_PAGE_BLOCK = 64 /* texels, that of the files */
+};
+
+/* An edge of a chart that the texture ends at. */
+typedef struct otx_page_rim
+{
+    int32_t face;
+    int32_t edge; /* of the face */
+} otx_page_rim;
+
+typedef struct otx_page
+{
+    const otx_layout *layout;
+    int32_t tile; /* index into the layout's tiles */
+    int32_t level;
+    int32_t side;    /* texels of the level */
+    int32_t columns; /* blocks a row, and rows */
+    int32_t gutter;  /* texels that are continued beyond rims */
+    const otx_page_rim *rims;
+    int32_t rim_count;
+    otx_bin faces;          /* items: index into the tile's faces */
+    otx_bin near_rims;      /* items: index into rims, gutter included */
+    const int32_t *far_rim; /* [columns * columns] a rim not far from there */
+} otx_page;
+
+/* Lists the rims of a tile: [*count] in `arena`. MEMORY. */
+otx_status otx_page_find_rims(
+    otx_run *run, otx_arena *arena, const otx_layout *layout, int32_t tile,
+    const otx_page_rim **rims, int32_t *count);
+
+/* Fills all from `layout`, `tile`, `level` and the rims of `page` on, in
+ * `arena`. Rows of blocks count from the TOP, as in files. MEMORY. */
+otx_status otx_page_build(otx_run *run, otx_arena *arena, otx_page *page);
+
+/* A corner of a leaf face, in texels of the page. */
+static inline otx_vec2
+otx_page_texel(const otx_page *page, int32_t corner)
+{
+    const float *uv = page->layout->leaf_uvs + 2 * (size_t)corner;
+    const int32_t number = page->layout->tiles[page->tile];
+
+    return (otx_vec2){
+        ((double)uv[0] - otx_layout_column(number)) * page->side,
+        ((double)uv[1] - otx_layout_row(number)) * page->side};
+}
+
+/* The corners at the ends of a rim. */
+static inline void
+otx_page_ends(const otx_page *page, int32_t rim, int32_t corners[2])
+{
+    const otx_level *leaf = otx_surface_leaf(page->layout->surface);
+    const otx_page_rim *r = &page->rims[rim];
+    const int32_t first = leaf->face_first[r->face];
+
+    corners[0] = first + r->edge;
+    corners[1] =
+        first +
+        (r->edge + 1 == otx_level_face_size(leaf, r->face) ? 0 : r->edge + 1);
+}
+
+#endif

@@ -1,0 +1,571 @@
+/* texel.c -- samples to colours.
+ *
+ * On the surface, a texel is the mean of n x n samples, each filtered in the
+ * exemplar over its share of the texel. A texel that several charts reach into
+ * belongs to the one with most samples; the others' samples are taken from
+ * what that chart's surface shows there. Beyond the rims texels show where a
+ * walk from the nearest rim ends, and far beyond, the rim itself. */
+#include "bake/texel.h"
+
+#include <string.h>
+
+enum
+{
+    PIECES = 1024, /* kept between samples; a power of two */
+    STEPS = 96,    /* of a walk */
+    CELL = 8,      /* texels of a far cell's side */
+    SAMPLES_MAX = 4
+};
+
+/* A block at work. */
+typedef struct block
+{
+    const otx_texel_source *source;
+    const otx_page *page;
+    otx_raster raster;
+    otx_texel_piece *pieces; /* [PIECES], by hash of their id */
+    const int32_t *rims;     /* [rim_count] near the block */
+    int64_t rim_count;
+    int32_t far_rim;
+} block;
+
+/* ---- pieces ---------------------------------------------------------------
+ */
+
+static otx_vec2
+corner_uv(const otx_texel_source *source, int32_t corner)
+{
+    const float *uv = source->mapping->uvs + 2 * (size_t)corner;
+
+    return (otx_vec2){uv[0], uv[1]};
+}
+
+/* Weighted by barycentric coordinates or their changes. */
+static otx_vec2
+mix_uv(
+    const otx_texel_source *source, const otx_facet *facet, const double w[3])
+{
+    otx_vec2 sum = {0.0, 0.0};
+
+    for (int k = 0; k < 3; ++k)
+        sum = otx_vec2_add(
+            sum, otx_vec2_scale(w[k], corner_uv(source, facet->corners[k])));
+    return sum;
+}
+
+/* Barycentric coordinates over the texels of a page. */
+static void
+set_coordinates(const otx_page *page, otx_texel_piece *piece)
+{
+    otx_vec2 p[3];
+
+    for (int k = 0; k < 3; ++k)
+        p[k] = otx_page_texel(page, piece->facet.corners[k]);
+
+    const double area2 =
+        otx_vec2_cross(otx_vec2_sub(p[1], p[0]), otx_vec2_sub(p[2], p[0]));
+
+    for (int k = 0; k < 3; ++k)
+    {
+        const otx_vec2 a = p[(k + 1) % 3], b = p[(k + 2) % 3];
+
+        piece->at[k] = otx_vec2_cross(a, b) / area2;
+        piece->dx[k] = (a.y - b.y) / area2;
+        piece->dy[k] = (b.x - a.x) / area2;
+    }
+}
+
+static int64_t
+facet_id(int32_t face, int32_t index)
+{
+    return (int64_t)face << 16 | index;
+}
+
+static void
+set_piece(const block *b, int64_t id, otx_texel_piece *piece)
+{
+    const otx_texel_source *source = b->source;
+    const otx_level *leaf = otx_surface_leaf(source->layout->surface);
+    const double share = 1.0 / b->raster.n;
+
+    piece->id = id;
+    piece->facet = otx_facet_at(leaf, (int32_t)(id >> 16), id & 0xFFFF);
+    piece->chart = source->layout->chart[piece->facet.face];
+    set_coordinates(b->page, piece);
+    piece->uv = mix_uv(source, &piece->facet, piece->at);
+    piece->uv_dx = mix_uv(source, &piece->facet, piece->dx);
+    piece->uv_dy = mix_uv(source, &piece->facet, piece->dy);
+    piece->probes = otx_texture_measure(
+        &source->texture, otx_vec2_scale(share, piece->uv_dx),
+        otx_vec2_scale(share, piece->uv_dy));
+}
+
+static const otx_texel_piece *
+piece_of(block *b, int64_t id)
+{
+    otx_texel_piece *piece =
+        &b->pieces[((id >> 16) * 2 + (id & 1)) & (PIECES - 1)];
+
+    if (piece->id != id)
+        set_piece(b, id, piece);
+    return piece;
+}
+
+/* ---- places ---------------------------------------------------------------
+ */
+
+static otx_walk
+place_at(const otx_texel_piece *piece, otx_vec2 texel)
+{
+    otx_walk walk = {.facet = piece->facet};
+
+    for (int k = 0; k < 3; ++k)
+    {
+        walk.at[k] =
+            piece->at[k] + texel.x * piece->dx[k] + texel.y * piece->dy[k];
+        walk.dx[k] = piece->dx[k];
+        walk.dy[k] = piece->dy[k];
+    }
+    return walk;
+}
+
+/* Where a walk from a piece to a texel position ends. */
+static otx_walk
+walk_to(const block *b, const otx_texel_piece *piece, otx_vec2 texel)
+{
+    const otx_layout *layout = b->source->layout;
+    otx_walk walk = place_at(piece, texel);
+
+    otx_walk_on(layout->surface, layout->covered, STEPS, &walk);
+    return walk;
+}
+
+static const otx_texel_piece *
+rim_piece(block *b, int32_t rim)
+{
+    const otx_level *leaf = otx_surface_leaf(b->source->layout->surface);
+    const otx_page_rim *r = &b->page->rims[rim];
+    int32_t side;
+    const otx_facet facet = otx_facet_at_edge(leaf, r->face, r->edge, &side);
+
+    return piece_of(b, facet_id(facet.face, facet.index));
+}
+
+static void
+rim_ends(const block *b, int32_t rim, otx_vec2 ends[2])
+{
+    int32_t corners[2];
+
+    otx_page_ends(b->page, rim, corners);
+    for (int k = 0; k < 2; ++k)
+        ends[k] = otx_page_texel(b->page, corners[k]);
+}
+
+/* The point of a rim nearest to a texel position. */
+static otx_walk
+place_on_rim(block *b, int32_t rim, otx_vec2 texel)
+{
+    otx_vec2 ends[2];
+
+    rim_ends(b, rim, ends);
+    return place_at(
+        rim_piece(b, rim),
+        otx_vec2_lerp(
+            ends[0], ends[1], otx_raster_nearest(ends[0], ends[1], texel)));
+}
+
+/* ---- numbers --------------------------------------------------------------
+ */
+
+/* Lengths, on the surface, of the steps of a unit in the exemplar: singular
+ * values of the map from the exemplar (in scene units) to the surface. */
+static void
+stretch_of(const otx_texel_source *source, const otx_facet *facet, double s[2])
+{
+    const otx_surface *surface = source->layout->surface;
+    const int32_t *verts = otx_surface_leaf(surface)->face_verts;
+    const otx_image *image = &source->exemplar->linear;
+    const double width = source->mapping->scale;
+    const double height = width * image->height / image->width;
+    otx_vec3 p[3];
+    otx_vec2 q[3];
+
+    for (int k = 0; k < 3; ++k)
+    {
+        const otx_vec2 uv = corner_uv(source, facet->corners[k]);
+
+        p[k] = otx_vec3_load(surface->points, verts[facet->corners[k]]);
+        q[k] = (otx_vec2){uv.x * width, uv.y * height};
+    }
+
+    const otx_vec2 q1 = otx_vec2_sub(q[1], q[0]), q2 = otx_vec2_sub(q[2], q[0]);
+    const otx_vec3 p1 = otx_vec3_sub(p[1], p[0]), p2 = otx_vec3_sub(p[2], p[0]);
+    const double area2 = otx_vec2_cross(q1, q2);
+
+    s[0] = s[1] = 0.0;
+    if (!(fabs(area2) > 0.0))
+        return;
+
+    const otx_vec3 du = otx_vec3_mix(q2.y / area2, p1, -q1.y / area2, p2);
+    const otx_vec3 dv = otx_vec3_mix(-q2.x / area2, p1, q1.x / area2, p2);
+    const double a = otx_vec3_dot(du, du), c = otx_vec3_dot(dv, dv);
+    const double half = 0.5 * (a + c), mixed = otx_vec3_dot(du, dv);
+    const double root =
+        sqrt(fmax(0.25 * (a - c) * (a - c) + mixed * mixed, 0.0));
+
+    s[0] = sqrt(half + root);
+    s[1] = sqrt(fmax(half - root, 0.0));
+}
+
+static void
+numbers_at(const otx_texel_source *source, const otx_walk *walk, float *color)
+{
+    const int32_t face = walk->facet.face;
+    otx_vec2 uv;
+    double s[2];
+
+    color[0] = color[1] = 0.0f;
+    switch (source->kind)
+    {
+    case OTX_TEXEL_PATCH:
+        color[0] = (float)source->mapping->face_patch[face];
+        color[1] =
+            (float)otx_surface_leaf(source->layout->surface)->face_cage[face];
+        return;
+    case OTX_TEXEL_UV:
+        uv = mix_uv(source, &walk->facet, walk->at);
+        color[0] = (float)uv.x;
+        color[1] = (float)uv.y;
+        return;
+    case OTX_TEXEL_STRETCH:
+        stretch_of(source, &walk->facet, s);
+        color[0] = (float)sqrt(0.5 * (s[0] * s[0] + s[1] * s[1]));
+        color[1] = s[1] > 0.0 ? (float)(s[0] / s[1]) : 0.0f;
+        return;
+    default:
+        return;
+    }
+}
+
+/* ---- colours --------------------------------------------------------------
+ */
+
+/* Color of a whole texel around a place. */
+static void
+color_at(const block *b, const otx_walk *walk, double share, float *color)
+{
+    const otx_texel_source *source = b->source;
+
+    if (source->kind != OTX_TEXEL_COLOR)
+    {
+        numbers_at(source, walk, color);
+        color[2] = 0.0f;
+        return;
+    }
+
+    const otx_texture_probes probes = otx_texture_measure(
+        &source->texture,
+        otx_vec2_scale(share, mix_uv(source, &walk->facet, walk->dx)),
+        otx_vec2_scale(share, mix_uv(source, &walk->facet, walk->dy)));
+
+    otx_texture_probe(
+        &source->texture, &probes, mix_uv(source, &walk->facet, walk->at),
+        color);
+}
+
+/* Color of a sample on the surface. */
+static void
+sample_color(
+    const block *b, const otx_texel_piece *piece, otx_vec2 at, float *color)
+{
+    const otx_vec2 uv = {
+        piece->uv.x + at.x * piece->uv_dx.x + at.y * piece->uv_dy.x,
+        piece->uv.y + at.x * piece->uv_dx.y + at.y * piece->uv_dy.y};
+
+    otx_texture_probe(&b->source->texture, &piece->probes, uv, color);
+}
+
+static int64_t
+sample_id(const block *b, int32_t x, int32_t y, int32_t s)
+{
+    const int32_t n = b->raster.n, i = x * n + s % n, j = y * n + s / n;
+
+    return b->raster
+        .facets[(size_t)j * (size_t)(b->raster.width * n) + (size_t)i];
+}
+
+/* The chart with most samples in a texel, and the first sample that has it;
+ * -1 where no face reaches. Of equal ones the first. */
+static int32_t
+owner_of(const block *b, int32_t x, int32_t y, int32_t *first)
+{
+    const int32_t samples = b->raster.n * b->raster.n;
+    const int32_t *chart = b->source->layout->chart;
+    int32_t charts[SAMPLES_MAX * SAMPLES_MAX];
+    int32_t best = -1, best_count = 0;
+
+    for (int32_t s = 0; s < samples; ++s)
+    {
+        const int64_t id = sample_id(b, x, y, s);
+
+        charts[s] = id < 0 ? -1 : chart[id >> 16];
+    }
+    for (int32_t s = 0; s < samples; ++s)
+    {
+        int32_t count = 0;
+
+        if (charts[s] < 0 || charts[s] == best)
+            continue;
+        for (int32_t t = s; t < samples; ++t)
+            count += charts[t] == charts[s];
+        if (count > best_count)
+        {
+            best = charts[s];
+            best_count = count;
+            *first = s;
+        }
+    }
+    return best;
+}
+
+/* A texel that faces reach into: `chart` is its owner's, which sample `first`
+ * has. */
+static void
+texel_color(
+    block *b, int32_t x, int32_t y, int32_t chart, int32_t first, float *out)
+{
+    const int32_t n = b->raster.n, samples = n * n;
+    const int32_t channels = b->source->channels;
+    const int64_t home = sample_id(b, x, y, first);
+    float color[OTX_IMAGE_MAX_CHANNELS], sum[OTX_IMAGE_MAX_CHANNELS] = {0.0f};
+
+    for (int32_t s = 0; s < samples; ++s)
+    {
+        const int64_t id = sample_id(b, x, y, s);
+        const otx_vec2 at =
+            otx_raster_sample(&b->raster, x * n + s % n, y * n + s / n);
+
+        if (id >= 0 && b->source->layout->chart[id >> 16] == chart)
+            sample_color(b, piece_of(b, id), at, color);
+        else
+        {
+            const otx_walk walk = walk_to(b, piece_of(b, home), at);
+
+            color_at(b, &walk, 1.0 / n, color);
+        }
+        for (int32_t c = 0; c < channels; ++c)
+            sum[c] += color[c];
+    }
+    for (int32_t c = 0; c < channels; ++c)
+        out[c] = sum[c] / (float)samples;
+}
+
+/* Whether samples of a texel lie in different patches of one chart. */
+static bool
+has_seam(const block *b, int32_t x, int32_t y)
+{
+    const int32_t *patch = b->source->mapping->face_patch;
+    int32_t seen = -1;
+
+    for (int32_t s = 0; s < b->raster.n * b->raster.n; ++s)
+    {
+        const int64_t id = sample_id(b, x, y, s);
+
+        if (id < 0)
+            continue;
+        if (seen >= 0 && patch[id >> 16] != seen)
+            return true;
+        seen = patch[id >> 16];
+    }
+    return false;
+}
+
+/* The same where numbers are baked: at the centre, never averaged. */
+static void
+texel_numbers(block *b, int32_t x, int32_t y, int32_t first, float *out)
+{
+    const otx_texel_piece *home = piece_of(b, sample_id(b, x, y, first));
+    const otx_walk walk = walk_to(b, home, otx_raster_texel(&b->raster, x, y));
+
+    numbers_at(b->source, &walk, out);
+    if (b->source->kind == OTX_TEXEL_SEAM)
+        out[0] = has_seam(b, x, y) ? 1.0f : 0.0f;
+    out[2] = 1.0f;
+}
+
+/* ---- beyond the rims ------------------------------------------------------
+ */
+
+/* The nearest of the rims around, for texels beyond all gutters. */
+static int32_t
+nearest_rim(const block *b, otx_vec2 texel)
+{
+    double best_sq = INFINITY;
+    int32_t best = b->far_rim;
+
+    for (int64_t i = 0; i < b->rim_count; ++i)
+    {
+        otx_vec2 ends[2];
+
+        rim_ends(b, b->rims[i], ends);
+
+        const otx_vec2 d = otx_vec2_sub(
+            texel,
+            otx_vec2_lerp(
+                ends[0], ends[1], otx_raster_nearest(ends[0], ends[1], texel)));
+        const double sq = otx_vec2_dot(d, d);
+
+        if (sq < best_sq)
+        {
+            best_sq = sq;
+            best = b->rims[i];
+        }
+    }
+    return best;
+}
+
+static void
+beyond_color(block *b, int32_t x, int32_t y, int32_t *cells, float *out)
+{
+    const otx_vec2 at = otx_raster_texel(&b->raster, x, y);
+    const int32_t near =
+        b->raster.near_rim[(size_t)y * (size_t)b->raster.width + (size_t)x];
+    int32_t *cell = &cells[y / CELL * (OTX_PAGE_BLOCK / CELL) + x / CELL];
+    otx_walk walk;
+
+    if (near >= 0)
+        walk = walk_to(b, rim_piece(b, near), at);
+    else
+    {
+        if (*cell == -2)
+            *cell = nearest_rim(
+                b, otx_raster_texel(
+                       &b->raster, x / CELL * CELL + CELL / 2,
+                       y / CELL * CELL + CELL / 2));
+        if (*cell < 0)
+        {
+            memset(out, 0, (size_t)b->source->channels * sizeof *out);
+            return;
+        }
+        walk = place_on_rim(b, *cell, at);
+    }
+    color_at(b, &walk, 1.0, out);
+}
+
+/* ---- blocks ---------------------------------------------------------------
+ */
+
+int32_t
+otx_texel_samples(const otx_texel_source *source, int32_t level)
+{
+    (void)source;
+    return level < 2 ? 2 : SAMPLES_MAX;
+}
+
+static int64_t
+draw_faces(block *b, int64_t block_index)
+{
+    const otx_layout *layout = b->source->layout;
+    const otx_level *leaf = otx_surface_leaf(layout->surface);
+    const otx_bin *bin = &b->page->faces;
+    int64_t overlaps = 0;
+
+    for (int64_t i = bin->first[block_index]; i < bin->first[block_index + 1];
+         ++i)
+    {
+        const int32_t face =
+            layout
+                ->tile_faces[layout->tile_first[b->page->tile] + bin->items[i]];
+
+        for (int32_t k = 0; k < otx_facet_count(leaf, face); ++k)
+        {
+            const otx_facet facet = otx_facet_at(leaf, face, k);
+            const otx_vec2 p[3] = {
+                otx_page_texel(b->page, facet.corners[0]),
+                otx_page_texel(b->page, facet.corners[1]),
+                otx_page_texel(b->page, facet.corners[2])};
+
+            overlaps += otx_raster_triangle(&b->raster, p, facet_id(face, k));
+        }
+    }
+    return overlaps;
+}
+
+static void
+draw_rims(block *b)
+{
+    for (int64_t i = 0; i < b->rim_count; ++i)
+    {
+        otx_vec2 ends[2];
+
+        rim_ends(b, b->rims[i], ends);
+        otx_raster_rim(
+            &b->raster, ends[0], ends[1], b->page->gutter, b->rims[i]);
+    }
+}
+
+static void
+shade(block *b, float *pixels)
+{
+    int32_t cells[(OTX_PAGE_BLOCK / CELL) * (OTX_PAGE_BLOCK / CELL)];
+
+    for (size_t i = 0; i < sizeof cells / sizeof *cells; ++i)
+        cells[i] = -2; /* not looked for yet */
+    for (int32_t y = 0; y < b->raster.height; ++y)
+        for (int32_t x = 0; x < b->raster.width; ++x)
+        {
+            float *out =
+                pixels + ((size_t)y * (size_t)b->raster.width + (size_t)x) *
+                             (size_t)b->source->channels;
+            int32_t first = 0;
+            const int32_t chart = owner_of(b, x, y, &first);
+
+            if (chart < 0)
+                beyond_color(b, x, y, cells, out);
+            else if (b->source->kind == OTX_TEXEL_COLOR)
+                texel_color(b, x, y, chart, first, out);
+            else
+                texel_numbers(b, x, y, first, out);
+        }
+}
+
+static bool
+begin(block *b, int32_t x, int32_t y, otx_arena *scratch)
+{
+    const otx_page *page = b->page;
+    const int64_t index = (int64_t)y * page->columns + x;
+    const int32_t top = page->side - y * OTX_PAGE_BLOCK;
+
+    b->raster = (otx_raster){
+        .width = otx_texel_block_width(page, x),
+        .height = otx_texel_block_width(page, y),
+        .n = otx_texel_samples(b->source, page->level),
+    };
+    b->raster.origin =
+        (otx_vec2){(double)x * OTX_PAGE_BLOCK, (double)top - b->raster.height};
+    b->rims = page->near_rims.items + page->near_rims.first[index];
+    b->rim_count =
+        page->near_rims.first[index + 1] - page->near_rims.first[index];
+    b->far_rim = page->far_rim[index];
+    b->pieces = OTX_NEW(scratch, otx_texel_piece, PIECES);
+    if (!b->pieces || !otx_raster_begin(scratch, &b->raster))
+        return false;
+    for (int32_t i = 0; i < PIECES; ++i)
+        b->pieces[i].id = -1;
+    return true;
+}
+
+bool
+otx_texel_block(
+    const otx_texel_source *source, const otx_page *page, int32_t x, int32_t y,
+    otx_arena *scratch, float *pixels, int64_t *overlaps)
+{
+    block b = {.source = source, .page = page};
+
+    if (!begin(&b, x, y, scratch))
+        return false;
+    *overlaps += draw_faces(&b, (int64_t)y * page->columns + x);
+    draw_rims(&b);
+    shade(&b, pixels);
+    return true;
+}

@@ -1,0 +1,106 @@
+/* bake_flags.c -- words of flags to options of a bake. */
+#include "cli/bake_flags.h"
+#include "cli/session.h"
+#include "cli/value.h"
+
+#include <string.h>
+
+static bool
+parse_uvs(const otx_flag_values *values, osdtex_bake_options *out)
+{
+    static const char *const words[] = {"auto", "own", "atlas"};
+    const char *text = values->text[OTX_FLAG_BAKE_UVS];
+    int index;
+
+    if (!text)
+        return true;
+    if (!otx_value_word(text, words, 3, &index))
+    {
+        otx_session_refuse("--uvs takes auto, own or atlas, not '%s'", text);
+        return false;
+    }
+    out->uvs = index;
+    return true;
+}
+
+static bool
+parse_numbers(const otx_flag_values *values, osdtex_bake_options *out)
+{
+    const char *side = values->text[OTX_FLAG_RESOLUTION];
+    const char *margin = values->text[OTX_FLAG_MARGIN];
+    const char *density = values->text[OTX_FLAG_TEXELS_PER_UNIT];
+    const char *blend = values->text[OTX_FLAG_SEAM_BLEND];
+    int64_t number;
+
+    if (side && !otx_value_int(side, 16, 32768, &number))
+    {
+        otx_session_refuse(
+            "--resolution takes a number of texels from 16 to 32768, not '%s'",
+            side);
+        return false;
+    }
+    if (side)
+        out->resolution = (int32_t)number;
+    if (margin && !otx_value_int(margin, 0, 64, &number))
+    {
+        otx_session_refuse(
+            "--margin takes a number of texels up to 64, not '%s'", margin);
+        return false;
+    }
+    if (margin)
+        out->margin = (int32_t)number;
+    if (density && (!otx_value_real(density, &out->texels_per_unit) ||
+                    !(out->texels_per_unit > 0.0)))
+    {
+        otx_session_refuse(
+            "--texels-per-unit takes a positive number, not '%s'", density);
+        return false;
+    }
+    if (blend &&
+        (!otx_value_real(blend, &out->seam_blend) || !(out->seam_blend >= 0.0)))
+    {
+        otx_session_refuse(
+            "--seam-blend takes a number of texels, not '%s'", blend);
+        return false;
+    }
+    return true;
+}
+
+/* patch,uv,stretch,seam in any number and order. */
+static bool
+parse_extras(const otx_flag_values *values, osdtex_bake_options *out)
+{
+    static const char *const words[] = {"patch", "uv", "stretch", "seam"};
+    const char *text = values->text[OTX_FLAG_EXTRA];
+
+    for (const char *at = text; at && *at;)
+    {
+        const size_t length = strcspn(at, ",");
+        int found = -1;
+
+        for (int i = 0; i < 4; ++i)
+            if (strlen(words[i]) == length &&
+                strncmp(words[i], at, length) == 0)
+                found = i;
+        if (found < 0)
+        {
+            otx_session_refuse(
+                "--extra takes patch, uv, stretch and seam with commas "
+                "between, not '%s'",
+                text);
+            return false;
+        }
+        out->extras |= 1u << found;
+        at += length + (at[length] == ',');
+    }
+    return true;
+}
+
+bool
+otx_bake_flags_parse(const otx_flag_values *values, osdtex_bake_options *out)
+{
+    *out = osdtex_bake_options_default();
+    out->preview_png = values->text[OTX_FLAG_PREVIEW_PNG] != NULL;
+    return parse_uvs(values, out) && parse_numbers(values, out) &&
+           parse_extras(values, out);
+}

@@ -1,0 +1,31 @@
+/* cage_model.h -- the artist's cage as files take it: nothing moved, nothing
+ * renumbered, only the texture coordinates are those of the bake. */
+#ifndef OTX_EXPORT_CAGE_MODEL_H
+#define OTX_EXPORT_CAGE_MODEL_H
+
+#include "bake/layout.h"
+#include "file/obj.h"
+#include "file/usda.h"
+
+/* The face-varying rule by which the coordinates of `layout` are to be
+ * interpolated: that of the cage for its own, all-linear for an atlas. */
+otx_fvar otx_cage_model_fvar(const otx_layout *layout);
+
+/* USD's word for it. */
+const char *otx_cage_model_fvar_name(otx_fvar fvar);
+
+/* What is written as an OBJ; what must be made is made in run->scratch.
+ *
+ *   path      of the OBJ
+ *   library   file name of its materials
+ *   fallback  the material of faces that have none
+ */
+otx_status otx_cage_model_obj(
+    otx_run *run, const otx_layout *layout, const char *path,
+    const char *library, const char *fallback, otx_obj *out);
+
+/* The same for a USD file, without the texture and the comments. */
+void
+otx_cage_model_usda(const otx_layout *layout, const char *name, otx_usda *out);
+
+#endif

@@ -1,0 +1,387 @@
+/* look.c -- textures tile by tile, then the texts that name them. */
+#include "export/look.h"
+
+#include "export/cage_model.h"
+#include "export/names.h"
+#include "file/exr.h"
+#include "file/mtl.h"
+#include "file/mtlx.h"
+#include "file/obj_write.h"
+#include "file/png_file.h"
+#include "file/usda.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char STAGE[] = "export";
+
+enum
+{
+    SUFFIX_BYTES = 64,
+    PREVIEW_SIDE = 1024 /* texels at most */
+};
+
+typedef struct writer
+{
+    otx_run *run;
+    const otx_mapping *mapping;
+    const otx_exemplar *exemplar;
+    const otx_layout *layout;
+    const otx_look_options *options;
+    otx_atomic_file_set *set;
+    otx_names names;
+} writer;
+
+/* ---- names ----------------------------------------------------------------
+ */
+
+/* FOLDER/NAMEsuffix in run->arena; NULL when memory is out. */
+static const char *
+path_of(const writer *w, const char *suffix)
+{
+    const size_t base = strlen(w->names.mtl) - strlen(".mtl");
+    const size_t bytes = strlen(suffix) + 1;
+    char *path = OTX_NEW(w->run->arena, char, base + bytes);
+
+    if (!path)
+        return NULL;
+    memcpy(path, w->names.mtl, base);
+    memcpy(path + base, suffix, bytes);
+    return path;
+}
+
+/* The same without the folder, as the other files refer to it. */
+static const char *
+name_of(const writer *w, const char *suffix)
+{
+    const char *path = path_of(w, suffix);
+    const char *slash = path ? strrchr(path, '/') : NULL;
+
+    return slash ? slash + 1 : path;
+}
+
+/* "_patch.1001.exr"; nothing stands for the colour. */
+static void
+tile_suffix(
+    otx_texel_kind kind, int32_t tile, const char *extension,
+    char suffix[SUFFIX_BYTES])
+{
+    const bool is_color = kind == OTX_TEXEL_COLOR;
+
+    snprintf(
+        suffix, SUFFIX_BYTES, "%s%s.%" PRId32 "%s", is_color ? "" : "_",
+        is_color ? "" : otx_bake_kind_name(kind), tile, extension);
+}
+
+/* How texts name the textures: the number where there is one tile only, since
+ * not all readers know the token. */
+static const char *
+texture_name(const writer *w, const char *extension)
+{
+    char suffix[SUFFIX_BYTES];
+
+    if (w->layout->tile_count == 1)
+        tile_suffix(OTX_TEXEL_COLOR, w->layout->tiles[0], extension, suffix);
+    else
+        snprintf(suffix, sizeof suffix, ".<UDIM>%s", extension);
+    return name_of(w, suffix);
+}
+
+/* ---- textures --------------------------------------------------------------
+ */
+
+/* Where blocks go: into the EXR, and those of one level into the preview. */
+typedef struct target
+{
+    otx_exr_writer *exr;
+    int32_t preview_level; /* -1 none */
+    otx_image preview;
+} target;
+
+static void
+copy_block(
+    target *t, int32_t x, int32_t y, const float *pixels, ptrdiff_t stride)
+{
+    const otx_image *image = &t->preview;
+    const int32_t left = x * OTX_EXR_TILE, top = y * OTX_EXR_TILE;
+    const int32_t wide = image->width - left, high = image->height - top;
+    const int32_t width = wide < OTX_EXR_TILE ? wide : OTX_EXR_TILE;
+    const int32_t height = high < OTX_EXR_TILE ? high : OTX_EXR_TILE;
+
+    for (int32_t row = 0; row < height; ++row)
+        memcpy(
+            otx_image_at(image, left, image->height - top - height + row),
+            pixels + row * stride,
+            (size_t)width * (size_t)image->channels * sizeof *pixels);
+}
+
+static otx_status
+put(void *user, int32_t level, int32_t x, int32_t y, const float *pixels,
+    ptrdiff_t stride)
+{
+    target *t = user;
+
+    if (level == t->preview_level)
+        copy_block(t, x, y, pixels, stride);
+    return otx_exr_put(t->exr, level, x, y, pixels, stride);
+}
+
+static otx_exr_options
+exr_options(const writer *w, otx_texel_kind kind)
+{
+    const otx_exemplar *exemplar = w->exemplar;
+    otx_exr_options options = otx_exr_options_default();
+
+    options.full_float = kind != OTX_TEXEL_COLOR;
+    if (kind != OTX_TEXEL_COLOR)
+        return options;
+    options.has_chromaticities = exemplar->has_chromaticities;
+    memcpy(
+        options.chromaticities, exemplar->chromaticities,
+        sizeof options.chromaticities);
+    options.color_space = exemplar->linear_space;
+    options.interop_id = exemplar->interop_id;
+    return options;
+}
+
+/* A PNG holds colour that is not multiplied by alpha. */
+static void
+unassociate(otx_image *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+
+    for (size_t i = 0; image->channels == 4 && i < count; ++i)
+    {
+        float *p = image->pixels + 4 * i;
+
+        for (int32_t k = 0; k < 3; ++k)
+            p[k] = p[3] > 0.0f ? p[k] / p[3] : 0.0f;
+    }
+}
+
+static otx_status
+write_preview(const writer *w, int32_t tile, otx_image *image)
+{
+    const otx_colour *colour = w->options->colour;
+    const char *display = otx_colour_srgb(colour);
+    char suffix[SUFFIX_BYTES];
+    const char *path;
+
+    tile_suffix(OTX_TEXEL_COLOR, tile, ".png", suffix);
+    path = path_of(w, suffix);
+    if (!path)
+        return otx_fail_memory(w->run, STAGE);
+    unassociate(image);
+    if (display)
+        OTX_TRY(otx_colour_convert(
+            w->run, colour, w->exemplar->linear_space, display, image));
+    else
+        otx_note(
+            w->run, OSDTEX_SEVERITY_WARNING, STAGE, OTX_NOWHERE,
+            "the colour configuration has no sRGB space, so the previews show "
+            "linear values");
+    return otx_png_file_write(w->run, w->set, path, image, 8);
+}
+
+/* Bakes one kind of one tile into its file. */
+static otx_status
+write_tile(const writer *w, otx_bake *bake, int32_t tile, bool preview)
+{
+    const otx_texel_kind kind = bake->source.kind;
+    const int32_t side = w->layout->side;
+    const otx_exr_options options = exr_options(w, kind);
+    const otx_exr_size size = {side, side, bake->source.channels};
+    target t = {.preview_level = -1};
+    const otx_bake_sink sink = {put, &t};
+    char suffix[SUFFIX_BYTES];
+    const char *path;
+
+    tile_suffix(kind, w->layout->tiles[tile], ".exr", suffix);
+    path = path_of(w, suffix);
+    if (!path)
+        return otx_fail_memory(w->run, STAGE);
+    if (preview)
+    {
+        for (t.preview_level = 0; side >> t.preview_level > PREVIEW_SIDE;)
+            ++t.preview_level;
+        OTX_TRY(otx_image_create(
+            w->run, w->run->scratch, side >> t.preview_level,
+            side >> t.preview_level, size.channels, &t.preview));
+    }
+    OTX_TRY(otx_exr_begin(w->run, w->set, path, size, &options, &t.exr));
+    OTX_TRY(otx_bake_tile(w->run, bake, tile, &sink));
+    OTX_TRY(otx_exr_end(t.exr));
+    return preview ? write_preview(w, w->layout->tiles[tile], &t.preview)
+                   : OSDTEX_OK;
+}
+
+static otx_status
+write_kind(const writer *w, otx_texel_kind kind)
+{
+    const bool preview = kind == OTX_TEXEL_COLOR && w->options->colour;
+    const otx_bake_options options = {kind};
+    otx_bake bake;
+
+    OTX_TRY(otx_bake_create(
+        w->run, w->mapping, w->exemplar, w->layout, &options, &bake));
+    for (int32_t tile = 0; tile < w->layout->tile_count; ++tile)
+    {
+        const otx_arena_mark mark = otx_arena_here(w->run->scratch);
+        const otx_status status = write_tile(w, &bake, tile, preview);
+
+        otx_arena_release(w->run->scratch, mark);
+        OTX_TRY(status);
+    }
+    if (kind == OTX_TEXEL_COLOR && bake.overlaps > 0)
+        otx_note(
+            w->run, OSDTEX_SEVERITY_WARNING, "bake", OTX_NOWHERE,
+            "faces lie on top of each other in UV (%" PRId64
+            " samples): the first of them is baked there; let an atlas be made "
+            "if they are to differ",
+            bake.overlaps);
+    return OSDTEX_OK;
+}
+
+/* ---- texts -----------------------------------------------------------------
+ */
+
+static otx_status
+write_mtl(
+    const writer *w, const char *suffix, const char *texture,
+    const otx_obj_names *materials)
+{
+    const char *path = path_of(w, suffix);
+    otx_mtl_material *list =
+        OTX_NEW(w->run->scratch, otx_mtl_material, materials->count);
+    const otx_mtl mtl = {path, materials->count, list};
+    const char *temporary;
+
+    if (!path || !list || !texture)
+        return otx_fail_memory(w->run, STAGE);
+    for (int32_t i = 0; i < materials->count; ++i)
+        list[i] = (otx_mtl_material){
+            .name = materials->text[i],
+            .diffuse = {1.0f, 1.0f, 1.0f},
+            .map_kd = texture,
+        };
+    OTX_TRY(otx_atomic_file_add(w->run, w->set, path, &temporary));
+    return otx_mtl_write(w->run, &mtl, temporary, path);
+}
+
+/* The comments of the caller and the rule of interpolation. */
+static otx_status
+list_comments(
+    const writer *w, const char *const **comments, int32_t *comment_count)
+{
+    const int32_t count = w->options->comment_count;
+    const char **list = OTX_NEW(w->run->scratch, const char *, count + 1);
+    const size_t bytes = 192;
+    char *rule = OTX_NEW(w->run->scratch, char, bytes);
+
+    if (!list || !rule)
+        return otx_fail_memory(w->run, STAGE);
+    for (int32_t i = 0; i < count; ++i)
+        list[i] = w->options->comments[i];
+    snprintf(
+        rule, bytes, "UVs %s: subdivide with face-varying interpolation \"%s\"",
+        w->layout->is_atlas ? "of an atlas" : "of the cage",
+        otx_cage_model_fvar_name(otx_cage_model_fvar(w->layout)));
+    list[count] = rule;
+    *comments = list;
+    *comment_count = count + 1;
+    return OSDTEX_OK;
+}
+
+static otx_status
+write_cage(const writer *w)
+{
+    const char *path = path_of(w, "_cage.obj");
+    const char *library = name_of(w, "_cage.mtl");
+    otx_obj_write_options how = {.name = path, .tags = true};
+    const char *temporary;
+    otx_obj obj;
+
+    if (!path || !library)
+        return otx_fail_memory(w->run, STAGE);
+    OTX_TRY(list_comments(w, &how.comments, &how.comment_count));
+    OTX_TRY(otx_cage_model_obj(
+        w->run, w->layout, path, library, w->names.stem, &obj));
+    OTX_TRY(write_mtl(w, "_cage.mtl", texture_name(w, ".exr"), &obj.materials));
+    if (w->options->colour)
+        OTX_TRY(write_mtl(
+            w, "_preview.mtl", texture_name(w, ".png"), &obj.materials));
+    OTX_TRY(otx_atomic_file_add(w->run, w->set, path, &temporary));
+    return otx_obj_write(w->run, &obj, temporary, &how);
+}
+
+static otx_status
+write_usda(const writer *w)
+{
+    const char *path = path_of(w, ".usda");
+    const char *temporary;
+    otx_usda usda;
+
+    if (!path)
+        return otx_fail_memory(w->run, STAGE);
+    otx_cage_model_usda(w->layout, w->names.stem, &usda);
+    usda.texture = texture_name(w, ".exr");
+    if (!usda.texture)
+        return otx_fail_memory(w->run, STAGE);
+    OTX_TRY(list_comments(w, &usda.comments, &usda.comment_count));
+    OTX_TRY(otx_atomic_file_add(w->run, w->set, path, &temporary));
+    return otx_usda_write(w->run, &usda, temporary, path);
+}
+
+static otx_status
+write_mtlx(const writer *w)
+{
+    const char *path = path_of(w, ".mtlx");
+    const otx_mtlx mtlx = {
+        w->names.stem, texture_name(w, ".exr"), w->exemplar->interop_id};
+    const char *temporary;
+
+    if (!path || !mtlx.texture)
+        return otx_fail_memory(w->run, STAGE);
+    OTX_TRY(otx_atomic_file_add(w->run, w->set, path, &temporary));
+    return otx_mtlx_write(w->run, &mtlx, temporary, path);
+}
+
+static otx_status
+write_files(const writer *w)
+{
+    OTX_TRY(write_kind(w, OTX_TEXEL_COLOR));
+    for (int32_t kind = 1; kind < OTX_TEXEL_KIND_COUNT; ++kind)
+        if (w->options->extras[kind])
+            OTX_TRY(write_kind(w, (otx_texel_kind)kind));
+    OTX_TRY(write_mtlx(w));
+    OTX_TRY(write_usda(w));
+    /* Last into place, so that whoever waits for it finds the others. */
+    OTX_TRY(write_cage(w));
+    return otx_atomic_file_commit(w->run, w->set, true);
+}
+
+otx_status
+otx_look_write(
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    const otx_layout *layout, const otx_look_options *options)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    writer w = {
+        .run = run,
+        .mapping = mapping,
+        .exemplar = exemplar,
+        .layout = layout,
+        .options = options,
+    };
+    otx_status status =
+        otx_names_derive(run, run->arena, options->path, &w.names);
+
+    /* Not in the scratch arena, which is released after every tile. */
+    if (status == OSDTEX_OK)
+        status = otx_atomic_file_begin(run, run->arena, &w.set);
+    if (status == OSDTEX_OK)
+        status = write_files(&w);
+    otx_arena_release(run->scratch, mark);
+    return status;
+}

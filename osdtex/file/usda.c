@@ -1,0 +1,402 @@
+/* usda.c -- USD's text format, line by line. */
+#include "file/usda.h"
+
+#include "file/text_out.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char STAGE[] = "usda";
+
+enum
+{
+    VALUES_A_LINE = 16 /* so that lines stay short enough for any editor */
+};
+
+static bool
+is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+char *
+otx_usda_identifier(otx_arena *arena, const char *name)
+{
+    const size_t length = strlen(name);
+    const bool digit_first = length == 0 || (name[0] >= '0' && name[0] <= '9');
+    char *out = OTX_NEW(arena, char, length + 2);
+    char *to = out;
+
+    if (!out)
+        return NULL;
+    if (digit_first)
+        *to++ = '_';
+    for (const char *c = name; *c; ++c)
+        *to++ = is_letter(*c) || (*c >= '0' && *c <= '9') ? *c : '_';
+    *to = '\0';
+    return out;
+}
+
+/* ---- arrays ---------------------------------------------------------------
+ */
+
+/* Opens line `i` of an array, or goes on in it. */
+static void
+separate(otx_text_out *out, int64_t i)
+{
+    if (i > 0)
+        otx_text_out_string(out, ", ");
+    if (i % VALUES_A_LINE == 0 && i > 0)
+        otx_text_out_string(out, "\n            ");
+}
+
+static void
+write_ints(
+    otx_text_out *out, const char *name, const int32_t *values, int64_t count)
+{
+    otx_text_out_string(out, "        int[] ");
+    otx_text_out_string(out, name);
+    otx_text_out_string(out, " = [");
+    for (int64_t i = 0; i < count; ++i)
+    {
+        separate(out, i);
+        otx_text_out_int(out, values[i]);
+    }
+    otx_text_out_char(out, ']');
+}
+
+static void
+write_floats(
+    otx_text_out *out, const char *name, const float *values, int64_t count)
+{
+    otx_text_out_string(out, "        float[] ");
+    otx_text_out_string(out, name);
+    otx_text_out_string(out, " = [");
+    for (int64_t i = 0; i < count; ++i)
+    {
+        separate(out, i);
+        otx_text_out_float(out, values[i]);
+    }
+    otx_text_out_string(out, "]\n");
+}
+
+/* `width` floats to a tuple. */
+static void
+write_tuples(
+    otx_text_out *out, const char *declaration, const float *values,
+    int64_t count, int32_t width)
+{
+    otx_text_out_string(out, "        ");
+    otx_text_out_string(out, declaration);
+    otx_text_out_string(out, " = [");
+    for (int64_t i = 0; i < count; ++i)
+    {
+        separate(out, i);
+        for (int32_t k = 0; k < width; ++k)
+        {
+            otx_text_out_string(out, k == 0 ? "(" : ", ");
+            otx_text_out_float(out, values[i * width + k]);
+        }
+        otx_text_out_char(out, ')');
+    }
+    otx_text_out_char(out, ']');
+}
+
+static void
+write_token(otx_text_out *out, const char *name, const char *value)
+{
+    otx_text_out_string(out, "        uniform token ");
+    otx_text_out_string(out, name);
+    otx_text_out_string(out, " = \"");
+    otx_text_out_string(out, value);
+    otx_text_out_string(out, "\"\n");
+}
+
+/* ---- mesh -----------------------------------------------------------------
+ */
+
+static bool
+write_faces(otx_run *run, otx_text_out *out, const otx_usda *u)
+{
+    int32_t *sizes = OTX_NEW(run->scratch, int32_t, u->face_count);
+
+    if (!sizes)
+        return false;
+    for (int32_t f = 0; f < u->face_count; ++f)
+        sizes[f] = u->face_first[f + 1] - u->face_first[f];
+    write_ints(out, "faceVertexCounts", sizes, u->face_count);
+    otx_text_out_char(out, '\n');
+    write_ints(out, "faceVertexIndices", u->face_verts, u->corner_count);
+    otx_text_out_char(out, '\n');
+    return true;
+}
+
+static void
+write_extent(otx_text_out *out, const otx_usda *u)
+{
+    float box[6] = {
+        INFINITY, INFINITY, INFINITY, -INFINITY, -INFINITY, -INFINITY};
+
+    for (int64_t i = 0; i < 3 * (int64_t)u->vert_count; ++i)
+    {
+        box[i % 3] = fminf(box[i % 3], u->points[i]);
+        box[3 + i % 3] = fmaxf(box[3 + i % 3], u->points[i]);
+    }
+    write_tuples(out, "float3[] extent", box, u->vert_count > 0 ? 2 : 0, 3);
+    otx_text_out_char(out, '\n');
+}
+
+/* One crease of two vertices for each edge: chains would have to share a
+ * sharpness. */
+static bool
+write_sharp(otx_run *run, otx_text_out *out, const otx_usda *u)
+{
+    int32_t *lengths = OTX_NEW(run->scratch, int32_t, u->crease_count);
+
+    if (!lengths)
+        return false;
+    for (int32_t i = 0; i < u->crease_count; ++i)
+        lengths[i] = 2;
+    if (u->crease_count > 0)
+    {
+        write_ints(
+            out, "creaseIndices", u->crease_verts,
+            2 * (int64_t)u->crease_count);
+        otx_text_out_char(out, '\n');
+        write_ints(out, "creaseLengths", lengths, u->crease_count);
+        otx_text_out_char(out, '\n');
+        write_floats(
+            out, "creaseSharpnesses", u->crease_sharpness, u->crease_count);
+    }
+    if (u->corner_tag_count > 0)
+    {
+        write_ints(
+            out, "cornerIndices", u->corner_tag_verts, u->corner_tag_count);
+        otx_text_out_char(out, '\n');
+        write_floats(
+            out, "cornerSharpnesses", u->corner_tag_sharpness,
+            u->corner_tag_count);
+    }
+    return true;
+}
+
+static bool
+write_holes(otx_run *run, otx_text_out *out, const otx_usda *u)
+{
+    int32_t *holes = OTX_NEW(run->scratch, int32_t, u->face_count);
+    int32_t count = 0;
+
+    if (!holes)
+        return false;
+    for (int32_t f = 0; u->face_hole && f < u->face_count; ++f)
+        if (u->face_hole[f])
+            holes[count++] = f;
+    if (count > 0)
+    {
+        write_ints(out, "holeIndices", holes, count);
+        otx_text_out_char(out, '\n');
+    }
+    return true;
+}
+
+static void
+write_uvs(otx_text_out *out, const otx_usda *u)
+{
+    write_tuples(out, "texCoord2f[] primvars:st", u->uvs, u->uv_count, 2);
+    otx_text_out_string(
+        out, " (\n            interpolation = \"faceVarying\"\n        )\n");
+    write_ints(out, "primvars:st:indices", u->face_uvs, u->corner_count);
+    otx_text_out_char(out, '\n');
+}
+
+/* Names that become one identifier would be one prim: the index tells them
+ * apart. */
+static bool
+write_subset(otx_run *run, otx_text_out *out, const otx_usda *u, int32_t index)
+{
+    const char *name =
+        otx_usda_identifier(run->scratch, u->groups.names[index]);
+    int32_t *faces = OTX_NEW(run->scratch, int32_t, u->face_count);
+    int32_t count = 0;
+
+    if (!name || !faces)
+        return false;
+    for (int32_t f = 0; f < u->face_count; ++f)
+        if (u->groups.face_names[f] == index)
+            faces[count++] = f;
+    otx_text_out_string(out, "\n        def GeomSubset \"group_");
+    otx_text_out_int(out, index);
+    otx_text_out_char(out, '_');
+    otx_text_out_string(out, name);
+    otx_text_out_string(out, "\"\n        {\n    ");
+    write_token(out, "elementType", "face");
+    otx_text_out_string(out, "    ");
+    write_token(out, "familyName", "group");
+    otx_text_out_string(out, "    ");
+    write_ints(out, "indices", faces, count);
+    otx_text_out_string(out, "\n        }\n");
+    return true;
+}
+
+static bool
+write_subsets(otx_run *run, otx_text_out *out, const otx_usda *u)
+{
+    for (int32_t i = 0; u->groups.face_names && i < u->groups.count; ++i)
+    {
+        const otx_arena_mark mark = otx_arena_here(run->scratch);
+        const bool ok = write_subset(run, out, u, i);
+
+        otx_arena_release(run->scratch, mark);
+        if (!ok)
+            return false;
+    }
+    return true;
+}
+
+static bool
+write_mesh(otx_run *run, otx_text_out *out, const otx_usda *u, const char *name)
+{
+    otx_text_out_string(
+        out, "    def Mesh \"Cage\" (\n"
+             "        prepend apiSchemas = [\"MaterialBindingAPI\"]\n"
+             "    )\n    {\n");
+    write_token(out, "subdivisionScheme", u->scheme);
+    write_token(out, "interpolateBoundary", u->boundary);
+    write_token(out, "faceVaryingLinearInterpolation", u->fvar);
+    write_token(out, "triangleSubdivisionRule", u->triangles);
+    write_token(out, "orientation", "rightHanded");
+    if (!write_faces(run, out, u))
+        return false;
+    write_tuples(out, "point3f[] points", u->points, u->vert_count, 3);
+    otx_text_out_char(out, '\n');
+    write_extent(out, u);
+    if (!write_sharp(run, out, u) || !write_holes(run, out, u))
+        return false;
+    write_uvs(out, u);
+    otx_text_out_string(out, "        rel material:binding = </");
+    otx_text_out_string(out, name);
+    otx_text_out_string(out, "/Look>\n");
+    if (!write_subsets(run, out, u))
+        return false;
+    otx_text_out_string(out, "    }\n\n");
+    return true;
+}
+
+/* ---- look -----------------------------------------------------------------
+ */
+
+/* `$` stands for the model's name, `@` for the texture's. */
+static void
+write_template(
+    otx_text_out *out, const char *text, const char *name, const char *texture)
+{
+    for (const char *c = text; *c; ++c)
+        if (*c == '$')
+            otx_text_out_string(out, name);
+        else if (*c == '@')
+        {
+            otx_text_out_char(out, '@');
+            otx_text_out_string(out, texture);
+            otx_text_out_char(out, '@');
+        }
+        else
+            otx_text_out_char(out, *c);
+}
+
+/* An EXR is scene-linear, so its numbers are taken as they are: "raw". */
+static const char look[] =
+    "    def Material \"Look\"\n"
+    "    {\n"
+    "        token outputs:surface.connect = "
+    "</$/Look/Surface.outputs:surface>\n"
+    "\n"
+    "        def Shader \"Surface\"\n"
+    "        {\n"
+    "            uniform token info:id = \"UsdPreviewSurface\"\n"
+    "            color3f inputs:diffuseColor.connect = "
+    "</$/Look/Texture.outputs:rgb>\n"
+    "            float inputs:roughness = 0.5\n"
+    "            token outputs:surface\n"
+    "        }\n"
+    "\n"
+    "        def Shader \"Texture\"\n"
+    "        {\n"
+    "            uniform token info:id = \"UsdUVTexture\"\n"
+    "            asset inputs:file = @\n"
+    "            token inputs:sourceColorSpace = \"raw\"\n"
+    "            token inputs:wrapS = \"clamp\"\n"
+    "            token inputs:wrapT = \"clamp\"\n"
+    "            float2 inputs:st.connect = </$/Look/Reader.outputs:result>\n"
+    "            float3 outputs:rgb\n"
+    "        }\n"
+    "\n"
+    "        def Shader \"Reader\"\n"
+    "        {\n"
+    "            uniform token info:id = \"UsdPrimvarReader_float2\"\n"
+    "            string inputs:varname = \"st\"\n"
+    "            float2 outputs:result\n"
+    "        }\n"
+    "    }\n"
+    "}\n";
+
+static otx_status
+write_all(otx_run *run, otx_text_out *out, const otx_usda *u)
+{
+    const char *name = otx_usda_identifier(run->scratch, u->name);
+
+    if (!name)
+        return otx_fail_memory(run, STAGE);
+    otx_text_out_string(out, "#usda 1.0\n");
+    for (int32_t i = 0; i < u->comment_count; ++i)
+    {
+        otx_text_out_string(out, "# ");
+        otx_text_out_name(out, u->comments[i], true);
+        otx_text_out_char(out, '\n');
+    }
+    write_template(
+        out,
+        "(\n    defaultPrim = \"$\"\n    upAxis = \"Y\"\n)\n\n"
+        "def Xform \"$\" (\n    kind = \"component\"\n)\n{\n",
+        name, "");
+    if (!write_mesh(run, out, u, name))
+        return otx_fail_memory(run, STAGE);
+    write_template(out, look, name, u->texture);
+    return otx_text_out_close(run, out);
+}
+
+/* ---- file -----------------------------------------------------------------
+ */
+
+static bool
+is_finite(const float *values, int64_t count)
+{
+    for (int64_t i = 0; i < count; ++i)
+        if (!isfinite(values[i]))
+            return false;
+    return true;
+}
+
+otx_status
+otx_usda_write(
+    otx_run *run, const otx_usda *usda, const char *path, const char *title)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    otx_where where = OTX_NOWHERE;
+    otx_text_out *out;
+    otx_status status;
+
+    where.file = title ? title : path;
+    if (!is_finite(usda->points, 3 * (int64_t)usda->vert_count) ||
+        !is_finite(usda->uvs, 2 * (int64_t)usda->uv_count) ||
+        !is_finite(usda->crease_sharpness, usda->crease_count) ||
+        !is_finite(usda->corner_tag_sharpness, usda->corner_tag_count))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, where,
+            "a position, UV or sharpness is not finite, so the cage is not "
+            "written");
+    status = otx_text_out_open(run, STAGE, path, title, &out);
+    if (status == OSDTEX_OK)
+        status = write_all(run, out, usda);
+    otx_arena_release(run->scratch, mark);
+    return status;
+}

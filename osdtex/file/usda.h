@@ -1,0 +1,57 @@
+/* usda.h -- a subdivision cage and its look as a USD text file.
+ *
+ * One Mesh with everything that OBJ cannot say (scheme, creases, corners,
+ * holes, how UVs are smoothed), one UsdPreviewSurface with one texture. USD's
+ * library is not needed: the text format is plain. */
+#ifndef OTX_FILE_USDA_H
+#define OTX_FILE_USDA_H
+
+#include "base/run.h"
+
+/* Faces that belong together under a name. */
+typedef struct otx_usda_subsets
+{
+    int32_t count;
+    const char *const *names;  /* [count], verbatim */
+    const int32_t *face_names; /* [face_count], -1 none; NULL: no subsets */
+} otx_usda_subsets;
+
+typedef struct otx_usda
+{
+    const char *name; /* of the model; made an identifier */
+    /* Tokens of UsdGeomMesh. */
+    const char *scheme;    /* "catmullClark", "loop", "bilinear", "none" */
+    const char *boundary;  /* "none", "edgeOnly", "edgeAndCorner" */
+    const char *fvar;      /* "none", "cornersOnly", … "all" */
+    const char *triangles; /* "catmullClark", "smooth" */
+
+    int32_t vert_count, face_count, corner_count, uv_count;
+    const float *points;       /* [vert_count * 3] */
+    const int32_t *face_first; /* [face_count + 1] */
+    const int32_t *face_verts; /* [corner_count] */
+    const float *uvs;          /* [uv_count * 2] */
+    const int32_t *face_uvs;   /* [corner_count] */
+
+    int32_t crease_count, corner_tag_count;
+    const int32_t *crease_verts;   /* [crease_count * 2] */
+    const float *crease_sharpness; /* [crease_count], 10 is infinite */
+    const int32_t *corner_tag_verts;
+    const float *corner_tag_sharpness;
+    const uint8_t *face_hole; /* [face_count] or NULL */
+    otx_usda_subsets groups;
+
+    const char *texture; /* file name relative to this one; may hold <UDIM> */
+    const char *const *comments; /* [comment_count], without `#` */
+    int32_t comment_count;
+} otx_usda;
+
+/* Writes `usda` to `path`; `title` is for messages (NULL: the path). ARGUMENT
+ * when a number is not finite, IO, MEMORY. */
+otx_status otx_usda_write(
+    otx_run *run, const otx_usda *usda, const char *path, const char *title);
+
+/* `name` as an identifier of USD: letters, digits and `_`, not a digit first,
+ * not empty. In `arena`; NULL when memory is out. */
+char *otx_usda_identifier(otx_arena *arena, const char *name);
+
+#endif
