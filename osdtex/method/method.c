@@ -5,10 +5,12 @@
 #include <time.h>
 
 extern const otx_method otx_method_hierarchical;
+extern const otx_method otx_method_material;
 extern const otx_method otx_method_tile;
 
 static const otx_method *const METHODS[] = {
     &otx_method_hierarchical,
+    &otx_method_material,
     &otx_method_tile,
 };
 

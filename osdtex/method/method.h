@@ -6,6 +6,7 @@
 #ifndef OTX_METHOD_METHOD_H
 #define OTX_METHOD_METHOD_H
 
+#include "image/analysis.h"
 #include "image/exemplar.h"
 #include "mapping/mapping.h"
 #include "method/option.h"
@@ -46,6 +47,8 @@ typedef struct otx_map_request
     int32_t first_face;      /* of the cage */
     otx_vec2 first_position; /* UV that its middle lands on */
     double first_angle;      /* radians */
+    /* What the exemplar is taken for; NULL: it is analysed where needed. */
+    const otx_analysis *analysis;
 } otx_map_request;
 
 typedef struct otx_method

@@ -1,0 +1,217 @@
+/* material.c -- fields, periodic coordinates, UVs [Ray09, sec. 2].
+ */
+#include "method/material/material.h"
+
+#include <string.h>
+
+/* Edges along a cell at which coordinates are solved for; finer faces share
+ * out what their ancestors have. */
+static const double EDGES_PER_CELL = 4.0;
+
+static otx_status
+choose_lattice(otx_material *m)
+{
+    const otx_vec2 *g = m->analysis.generators;
+
+    if (m->request->analysis)
+        m->analysis = *m->request->analysis;
+    else
+        OTX_TRY(otx_analysis_run(
+            m->run, &m->exemplar->lab, m->exemplar->wrap_x, m->exemplar->wrap_y,
+            &m->analysis));
+    if (m->analysis.kind != OTX_ANALYSIS_LATTICE)
+        return otx_fail(
+            m->run, OSDTEX_ERROR_SUPPORT, "map",
+            (otx_where){m->exemplar->source_path, 0, -1, -1},
+            "the exemplar is %s: periodic coordinates need a lattice; give it "
+            "with --generators, or take another method",
+            otx_analysis_name(m->analysis.kind));
+    m->cell = fmin(otx_vec2_length(g[0]), otx_vec2_length(g[1])) / m->texels;
+    return OSDTEX_OK;
+}
+
+/* The coarsest level that has enough edges to a cell. */
+static int32_t
+choose_level(const otx_material *m)
+{
+    int32_t level = m->surface->level_count - 1;
+    double edge = m->surface->mean_edge_length;
+
+    for (; level > 1 && 2.0 * edge * EDGES_PER_CELL <= m->cell; --level)
+        edge *= 2.0;
+    return level;
+}
+
+static otx_status
+solve_field(otx_material *m)
+{
+    const int32_t asked = m->settings->symmetry;
+    const otx_direction_request request = {
+        .symmetry = asked != 0                  ? asked
+                    : m->analysis.symmetry >= 2 ? 2
+                                                : 1,
+    };
+
+    m->level = choose_level(m);
+    OTX_TRY(otx_connection_build(m->run, m->surface, m->level, &m->connection));
+    OTX_TRY(otx_direction_solve(m->run, &m->connection, &request, &m->field));
+    return otx_scale_solve(
+        m->run, &m->field, m->settings->octaves * log(2.0), &m->log_scale);
+}
+
+/* Cells along and across the field: rows of the inverse of the generators,
+ * turned so that the exemplar's direction lies along the field. */
+static void
+cell_gradients(const otx_material *m, otx_vec2 gradient[2])
+{
+    const otx_vec2 *g = m->analysis.generators;
+    const double d = otx_vec2_cross(g[0], g[1]) / m->texels;
+    const double turn = -m->analysis.angle + m->settings->turn * OTX_PI / 180.0;
+
+    gradient[0] =
+        otx_vec2_mul(otx_vec2_polar(turn), (otx_vec2){g[1].y / d, -g[1].x / d});
+    gradient[1] =
+        otx_vec2_mul(otx_vec2_polar(turn), (otx_vec2){-g[0].y / d, g[0].x / d});
+}
+
+static otx_status
+solve_phases(otx_material *m)
+{
+    otx_phase_request request = {.field = &m->field, .log_scale = m->log_scale};
+
+    cell_gradients(m, request.gradient);
+    OTX_TRY(otx_phase_solve(m->run, &request, &m->phase));
+    OTX_TRY(otx_phase_distance(
+        m->run, &m->connection, m->phase.defect, &m->distance));
+    return otx_phase_unwrap(m->run, &m->phase, m->distance);
+}
+
+/* Cell coordinates of the corners of one face's children. */
+static void
+share_out(
+    const otx_level *level, const otx_level *finer, int32_t face,
+    const otx_vec2 *from, otx_vec2 *to)
+{
+    const int32_t first = level->face_first[face];
+    const int32_t size = otx_level_face_size(level, face);
+    const int32_t end = finer->face_first[level->face_child_first[face + 1]];
+    otx_vec2 middle = {0, 0};
+
+    for (int32_t k = 0; k < size; ++k)
+        middle =
+            otx_vec2_add(middle, otx_vec2_scale(1.0 / size, from[first + k]));
+    for (int32_t i = finer->face_first[level->face_child_first[face]]; i < end;
+         ++i)
+    {
+        const int32_t vertex = finer->face_verts[i];
+
+        to[i] = middle;
+        for (int32_t k = 0; k < size; ++k)
+            if (vertex == level->face_verts[first + k])
+                to[i] = from[first + k];
+            else if (
+                vertex == level->edge_child_vert[level->face_edges[first + k]])
+                to[i] = otx_vec2_lerp(
+                    from[first + k], from[first + (k + 1) % size], 0.5);
+    }
+}
+
+/* Cell coordinates of the leaf corners, [corner_count]. */
+static otx_status
+refine_cells(otx_material *m, otx_vec2 **out)
+{
+    *out = m->phase.cells;
+    for (int32_t l = m->level; l + 1 < m->surface->level_count; ++l)
+    {
+        const otx_level *level = &m->surface->levels[l];
+        const otx_level *finer = level + 1;
+        otx_vec2 *cells =
+            OTX_NEW(m->run->scratch, otx_vec2, finer->corner_count);
+
+        if (!cells)
+            return otx_fail_memory(m->run, "map");
+        for (int32_t f = 0; f < level->face_count; ++f)
+            share_out(level, finer, f, *out, cells);
+        *out = cells;
+    }
+    return OSDTEX_OK;
+}
+
+static otx_status
+lay_uvs(otx_material *m)
+{
+    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_vec2 *g = m->analysis.generators;
+    otx_vec2 *cells;
+
+    m->uvs = OTX_NEW(m->run->arena, otx_vec2, leaf->corner_count);
+    m->face_patch = OTX_ZNEW(m->run->arena, int32_t, leaf->face_count);
+    if (!m->uvs || !m->face_patch)
+        return otx_fail_memory(m->run, "map");
+    OTX_TRY(refine_cells(m, &cells));
+    for (int32_t i = 0; i < leaf->corner_count; ++i)
+        m->uvs[i] = otx_vec2_add(
+            m->analysis.centre, otx_vec2_add(
+                                    otx_vec2_scale(cells[i].x, g[0]),
+                                    otx_vec2_scale(cells[i].y, g[1])));
+    m->patch_count = 1;
+    return OSDTEX_OK;
+}
+
+static otx_status
+write_mapping(otx_material *m, otx_mapping *out)
+{
+    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_image *image = &m->exemplar->match;
+
+    *out = (otx_mapping){
+        .surface = m->surface,
+        .scale = m->request->scale,
+        .uvs = OTX_NEW(m->run->arena, float, 2 * (int64_t)leaf->corner_count),
+        .face_patch = m->face_patch,
+        .patch_count = m->patch_count,
+    };
+    if (!out->uvs)
+        return otx_fail_memory(m->run, "map");
+    for (int32_t i = 0; i < leaf->corner_count; ++i)
+    {
+        out->uvs[2 * (size_t)i] = (float)(m->uvs[i].x / image->width);
+        out->uvs[2 * (size_t)i + 1] = (float)(m->uvs[i].y / image->height);
+    }
+    return OSDTEX_OK;
+}
+
+static otx_status
+map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_map_request *request, const void *settings, otx_mapping *out,
+    otx_map_stats *stats)
+{
+    otx_material m = {
+        .run = run,
+        .surface = surface,
+        .exemplar = exemplar,
+        .request = request,
+        .settings = settings,
+        .stats = stats,
+        .texels = exemplar->match.width / request->scale,
+    };
+
+    OTX_TRY(choose_lattice(&m));
+    otx_map_stats_stage(stats, "field");
+    OTX_TRY(solve_field(&m));
+    otx_map_stats_stage(stats, "phase");
+    OTX_TRY(solve_phases(&m));
+    OTX_TRY(lay_uvs(&m));
+    return write_mapping(&m, out);
+}
+
+const otx_method otx_method_material = {
+    .name = "material",
+    .summary = "Lays a lattice over the whole surface along a direction field, "
+               "so that rows and strands run through.",
+    .source = "Ray, Levy, Wang, Turk, Vallet: Material Space Texturing, 2009",
+    .options = otx_material_options,
+    .option_count = OTX_MATERIAL_OPTION_COUNT,
+    .settings_bytes = sizeof(otx_material_settings),
+    .map = map,
+};

@@ -1,0 +1,27 @@
+/* material_settings.c -- what can be set in material space texturing. */
+#include "method/material/material.h"
+
+#define FIELD(member) offsetof(otx_material_settings, member)
+
+static const char *const SYMMETRY[] = {"auto", "one", "two", NULL};
+
+const otx_option otx_material_options[] = {
+    {"symmetry", OTX_OPTION_CHOICE, FIELD(symmetry), 0, 0, 0, SYMMETRY,
+     "Whether the texture may be laid upside down: one direction, or two; auto "
+     "asks the exemplar"},
+    {"octaves", OTX_OPTION_REAL, FIELD(octaves), 0, 3, 0.5, NULL,
+     "How far the texture's size may follow the curvature, in octaves; more "
+     "gives fewer dislocations, less an even size"},
+    {"clear", OTX_OPTION_REAL, FIELD(clear), 0, 8, 0.6, NULL,
+     "Distance from a dislocation within which patches replace the periodic "
+     "texture, in cells"},
+    {"fill", OTX_OPTION_SWITCH, FIELD(fill), 0, 0, 1, NULL,
+     "Replace the texture around dislocations by patches that continue it"},
+    {"turn", OTX_OPTION_REAL, FIELD(turn), -360, 360, 0, NULL,
+     "Angle from the field's direction to the texture's, in degrees"},
+};
+
+_Static_assert(
+    sizeof otx_material_options / sizeof otx_material_options[0] ==
+        OTX_MATERIAL_OPTION_COUNT,
+    "the header says how long the table is");

@@ -1,0 +1,480 @@
+/* phase.c -- periodic coordinates that follow a direction field.
+ *
+ * Real systems of two unknowns to a vertex: conjugation is not linear over
+ * the complex numbers. */
+#include "method/material/phase.h"
+
+#include "base/queue.h"
+#include "math/sparse.h"
+
+enum
+{
+    EIGEN_ROUNDS = 30,
+    UNIT_ROUNDS = 20
+};
+
+/* Length over which one round smooths, in cells. */
+static const double SMOOTHING = 8.0;
+
+/* A sum of steps that is this far from a whole number is not one. */
+static const double WHOLE = 1e-3;
+
+typedef struct solver
+{
+    otx_run *run;
+    const otx_phase_request *request;
+    const otx_connection *c;
+    otx_phase *phase;
+    double *angles; /* [face_count] of the sense that the face takes */
+    int8_t *sense;  /* [corner_count] of the face against the vertex' */
+    double *mass;   /* [vert_count] area */
+    double tau;
+    double *wish[2]; /* [edge_count] steps asked for, in the first face's sense
+                      * along its half-edge */
+    double *step[2]; /* [edge_count] steps that the phases make */
+    double *z[2];    /* [2 vert_count] */
+} solver;
+
+/* -- senses -------------------------------------------------------------- */
+
+static void
+match_edges(solver *s)
+{
+    for (int32_t e = 0; e < s->c->level->edge_count; ++e)
+    {
+        const int32_t *faces = s->c->level->edge_faces + 2 * (size_t)e;
+
+        s->phase->match[e] = 1;
+        if (s->c->inner[e])
+            s->phase->match[e] = cos(s->angles[faces[1]] - s->angles[faces[0]] -
+                                     s->c->turns[e]) < 0.0
+                                     ? -1
+                                     : 1;
+    }
+}
+
+/* The corner of the same vertex in the face across one of its two edges: the
+ * edge that starts at `corner`, or the one that ends there; -1 at a border. */
+static int32_t
+next_corner(
+    const otx_connection *c, int32_t face, int32_t corner, bool outgoing,
+    int32_t *next_face, int32_t *edge)
+{
+    const otx_level *level = c->level;
+    const int32_t first = level->face_first[face];
+    const int32_t size = otx_level_face_size(level, face);
+    const int32_t vertex = level->face_verts[corner];
+    const int32_t *faces;
+    int32_t at;
+
+    *edge =
+        level->face_edges
+            [outgoing ? corner : first + (corner - first + size - 1) % size];
+    if (!c->inner[*edge])
+        return -1;
+    faces = level->edge_faces + 2 * (size_t)*edge;
+    *next_face = faces[0] == face ? faces[1] : faces[0];
+    at = otx_connection_corner(c, *edge, *next_face);
+    if (level->face_verts[at] == vertex)
+        return at;
+    ++at;
+    return at == level->face_first[*next_face + 1]
+               ? level->face_first[*next_face]
+               : at;
+}
+
+/* Gives senses to the corners around a vertex, from one of them both ways. */
+static void
+sense_around(solver *s, int32_t face, int32_t corner)
+{
+    s->sense[corner] = 1;
+    for (int way = 0; way < 2; ++way)
+    {
+        int32_t f = face, at = corner;
+
+        for (;;)
+        {
+            int32_t next_face, edge;
+            const int32_t next =
+                next_corner(s->c, f, at, way == 0, &next_face, &edge);
+
+            if (next < 0 || s->sense[next] != 0)
+                break;
+            s->sense[next] = (int8_t)(s->sense[at] * s->phase->match[edge]);
+            f = next_face;
+            at = next;
+        }
+    }
+}
+
+static void
+choose_senses(solver *s)
+{
+    const otx_level *level = s->c->level;
+
+    match_edges(s);
+    for (int32_t f = 0; f < level->face_count; ++f)
+        for (int32_t i = level->face_first[f]; i < level->face_first[f + 1];
+             ++i)
+            if (s->sense[i] == 0)
+                sense_around(s, f, i);
+}
+
+/* -- steps asked for ----------------------------------------------------- */
+
+/* Cells along half-edge `corner` of `face`, in the face's sense, times
+ * e^-log_scale. */
+static double
+face_wish(const solver *s, int32_t face, int32_t corner, int axis)
+{
+    const otx_vec2 g = otx_vec2_mul(
+        otx_vec2_polar(s->angles[face]), s->request->gradient[axis]);
+
+    return otx_vec2_dot(g, s->c->sides[corner]);
+}
+
+static void
+make_wishes(solver *s, int axis)
+{
+    const otx_level *level = s->c->level;
+
+    for (int32_t e = 0; e < level->edge_count; ++e)
+    {
+        const int32_t *faces = level->edge_faces + 2 * (size_t)e;
+        const int32_t *verts = level->edge_verts + 2 * (size_t)e;
+        const double scale =
+            exp(0.5 * (s->request->log_scale[verts[0]] +
+                       s->request->log_scale[verts[1]]));
+        /* Of an edge beside a hole, the side that is there. */
+        const int32_t f = faces[1] >= 0 && level->face_hole[faces[0]];
+        double wish = face_wish(
+            s, faces[f], otx_connection_corner(s->c, e, faces[f]), axis);
+
+        if (f == 1)
+            wish = -wish;
+        if (s->c->inner[e])
+            wish =
+                0.5 * (wish - s->phase->match[e] *
+                                  face_wish(
+                                      s, faces[1],
+                                      otx_connection_corner(s->c, e, faces[1]),
+                                      axis));
+        s->wish[axis][e] = scale * wish;
+    }
+}
+
+/* Corners of the first face at the two ends of an edge. */
+static void
+edge_corners(const otx_connection *c, int32_t edge, int32_t corners[2])
+{
+    const int32_t face = c->level->edge_faces[2 * (size_t)edge];
+
+    corners[0] = otx_connection_corner(c, edge, face);
+    corners[1] = corners[0] + 1 == c->level->face_first[face + 1]
+                     ? c->level->face_first[face]
+                     : corners[0] + 1;
+}
+
+/* -- phases -------------------------------------------------------------- */
+
+/* The 2 x 2 block -w S_j R S_i at row j, column i; S conjugates. */
+static int64_t
+add_block(
+    int32_t j, int32_t i, double w, double angle, int sj, int si,
+    otx_sparse_entry *entries)
+{
+    const double c = cos(angle), n = sin(angle);
+    const double block[2][2] = {{c, -n * si}, {n * sj, c * sj * si}};
+    int64_t count = 0;
+
+    for (int32_t p = 0; p < 2; ++p)
+        for (int32_t q = 0; q < 2; ++q)
+        {
+            const int32_t row = 2 * j + p, column = 2 * i + q;
+
+            entries[count++] = (otx_sparse_entry){
+                row > column ? row : column, row > column ? column : row,
+                -w * block[p][q], 0.0};
+        }
+    return count;
+}
+
+static double
+edge_weight(const otx_connection *c, int32_t edge)
+{
+    return c->inner[edge] ? 1.0 / c->weights[edge] : 0.5;
+}
+
+static otx_status
+factor(solver *s, int axis, otx_arena *arena, otx_sparse **out)
+{
+    const otx_level *level = s->c->level;
+    const int64_t edges = level->edge_count, verts = level->vert_count;
+    otx_sparse_entry *entries =
+        OTX_NEW(arena, otx_sparse_entry, 8 * edges + 2 * verts);
+    int64_t count = 0;
+
+    if (!entries)
+        return OSDTEX_ERROR_MEMORY;
+    for (int32_t e = 0; e < edges; ++e)
+    {
+        const double w = edge_weight(s->c, e);
+        int32_t at[2], v[2];
+
+        edge_corners(s->c, e, at);
+        for (int k = 0; k < 2; ++k)
+        {
+            v[k] = level->face_verts[at[k]];
+            for (int32_t p = 0; p < 2; ++p)
+                entries[count++] =
+                    (otx_sparse_entry){2 * v[k] + p, 2 * v[k] + p, w, 0.0};
+        }
+        count += add_block(
+            v[1], v[0], w, 2.0 * OTX_PI * s->wish[axis][e], s->sense[at[1]],
+            s->sense[at[0]], entries + count);
+    }
+    for (int32_t i = 0; i < 2 * verts; ++i)
+        entries[count++] =
+            (otx_sparse_entry){i, i, s->tau * s->mass[i / 2], 0.0};
+    return otx_sparse_factor(
+        arena, OTX_SPARSE_REAL, (int32_t)(2 * verts), entries, count, out);
+}
+
+static void
+normalise(const solver *s, double *z)
+{
+    for (int32_t v = 0; v < s->c->level->vert_count; ++v)
+    {
+        const double length = hypot(z[2 * v], z[2 * v + 1]);
+        const bool fine = length > 0.0 && isfinite(length);
+
+        z[2 * v] = fine ? z[2 * v] / length : 1.0;
+        z[2 * v + 1] = fine ? z[2 * v + 1] / length : 0.0;
+    }
+}
+
+/* Cells, in (-1/2, 1/2]. */
+static double
+vertex_phase(const solver *s, int axis, int32_t vertex)
+{
+    const double *z = s->z[axis] + 2 * (size_t)vertex;
+
+    return atan2(z[1], z[0]) / (2.0 * OTX_PI);
+}
+
+/* What the phases make of the wishes: the nearest step that fits them. */
+static void
+read_steps(solver *s, int axis)
+{
+
+    for (int32_t e = 0; e < s->c->level->edge_count; ++e)
+    {
+        const double wish = s->wish[axis][e];
+        double turn[2];
+        int32_t at[2];
+
+        edge_corners(s->c, e, at);
+        for (int k = 0; k < 2; ++k)
+        {
+            const int32_t v = s->c->level->face_verts[at[k]];
+
+            turn[k] = s->sense[at[k]] * vertex_phase(s, axis, v);
+        }
+        s->step[axis][e] = turn[1] - turn[0];
+        s->step[axis][e] += round(wish - s->step[axis][e]);
+    }
+}
+
+static otx_status
+solve_axis(void *context, int64_t axis, otx_worker *worker)
+{
+    solver *s = context;
+    const int32_t size = 2 * s->c->level->vert_count;
+    double *z = s->z[axis];
+    double *mass = OTX_NEW(worker->scratch, double, size);
+    otx_sparse *lhs;
+
+    if (!mass)
+        return OSDTEX_ERROR_MEMORY;
+    make_wishes(s, (int)axis);
+    OTX_TRY(factor(s, (int)axis, worker->scratch, &lhs));
+    for (int32_t i = 0; i < size; ++i)
+    {
+        mass[i] = s->mass[i / 2];
+        z[i] = i % 2 == 0 ? 1.0 : 0.0;
+    }
+    OTX_TRY(otx_sparse_smallest(lhs, mass, EIGEN_ROUNDS, z));
+    for (int round = 0; round < UNIT_ROUNDS; ++round)
+    {
+        normalise(s, z);
+        for (int32_t i = 0; i < size; ++i)
+            z[i] *= s->tau * mass[i];
+        OTX_TRY(otx_sparse_solve(lhs, z, z));
+    }
+    read_steps(s, (int)axis);
+    return OSDTEX_OK;
+}
+
+/* -- cells of faces ------------------------------------------------------ */
+
+/* Step along half-edge `corner` of `face`, in its sense. */
+static double
+face_step(const solver *s, int32_t face, int32_t corner, int axis)
+{
+    const int32_t edge = s->c->level->face_edges[corner];
+
+    return s->c->level->edge_faces[2 * (size_t)edge] == face
+               ? s->step[axis][edge]
+               : -s->phase->match[edge] * s->step[axis][edge];
+}
+
+static void
+lay_face(solver *s, int32_t face)
+{
+    const otx_level *level = s->c->level;
+    const int32_t first = level->face_first[face];
+    const int32_t vertex = level->face_verts[first];
+    const otx_vec2 start = {
+        s->sense[first] * vertex_phase(s, 0, vertex),
+        s->sense[first] * vertex_phase(s, 1, vertex)};
+    otx_vec2 at = start;
+
+    for (int32_t i = first; i < level->face_first[face + 1]; ++i)
+    {
+        s->phase->cells[i] = at;
+        at.x += face_step(s, face, i, 0);
+        at.y += face_step(s, face, i, 1);
+    }
+    at = otx_vec2_sub(at, start);
+    s->phase->defect[face] =
+        !level->face_hole[face] && !(fabs(at.x) < WHOLE && fabs(at.y) < WHOLE);
+}
+
+/* Vertices around which the senses do not close, which are the field's
+ * singularities of half a turn, spoil all faces around them. */
+static otx_status
+mark_singular(solver *s)
+{
+    const otx_level *level = s->c->level;
+    uint8_t *singular = OTX_ZNEW(s->run->scratch, uint8_t, level->vert_count);
+
+    if (!singular)
+        return otx_fail_memory(s->run, "field");
+    for (int32_t e = 0; e < level->edge_count; ++e)
+    {
+        const int32_t *faces = level->edge_faces + 2 * (size_t)e;
+        int32_t at[2];
+
+        if (!s->c->inner[e])
+            continue;
+        edge_corners(s->c, e, at);
+        for (int k = 0; k < 2; ++k)
+        {
+            const int32_t v = level->face_verts[at[k]];
+            int32_t other = level->face_first[faces[1]];
+
+            while (level->face_verts[other] != v)
+                ++other;
+            if (s->sense[at[k]] * s->phase->match[e] != s->sense[other])
+                singular[v] = 1;
+        }
+    }
+    for (int32_t f = 0; f < level->face_count; ++f)
+        for (int32_t i = level->face_first[f]; i < level->face_first[f + 1];
+             ++i)
+            if (singular[level->face_verts[i]] && !level->face_hole[f])
+                s->phase->defect[f] = 1;
+    return OSDTEX_OK;
+}
+
+/* -- the whole ----------------------------------------------------------- */
+
+static otx_status
+allocate(solver *s)
+{
+    const otx_level *level = s->c->level;
+    otx_arena *arena = s->run->arena, *scratch = s->run->scratch;
+
+    s->phase->match = OTX_NEW(arena, int8_t, level->edge_count);
+    s->phase->cells = OTX_NEW(arena, otx_vec2, level->corner_count);
+    s->phase->defect = OTX_NEW(arena, uint8_t, level->face_count);
+    s->angles = OTX_NEW(scratch, double, level->face_count);
+    s->sense = OTX_ZNEW(scratch, int8_t, level->corner_count);
+    s->mass = OTX_ZNEW(scratch, double, level->vert_count);
+    for (int k = 0; k < 2; ++k)
+    {
+        s->wish[k] = OTX_NEW(scratch, double, level->edge_count);
+        s->step[k] = OTX_NEW(scratch, double, level->edge_count);
+        s->z[k] = OTX_NEW(scratch, double, 2 * (int64_t)level->vert_count);
+        if (!s->wish[k] || !s->step[k] || !s->z[k])
+            return otx_fail_memory(s->run, "field");
+    }
+    if (!s->phase->match || !s->phase->cells || !s->phase->defect ||
+        !s->angles || !s->sense || !s->mass)
+        return otx_fail_memory(s->run, "field");
+    return OSDTEX_OK;
+}
+
+/* Angles, and the area around each vertex; a trace where there is none. */
+static void
+measure(solver *s)
+{
+    const otx_level *level = s->c->level;
+    const otx_vec2 *g = s->request->gradient;
+    const double cell =
+        1.0 / fmax(otx_vec2_length(g[0]), otx_vec2_length(g[1]));
+
+    s->tau = 1.0 / (SMOOTHING * cell * SMOOTHING * cell);
+    for (int32_t v = 0; v < level->vert_count; ++v)
+        s->mass[v] = 1e-9 * s->c->area / level->vert_count;
+    for (int32_t f = 0; f < level->face_count; ++f)
+    {
+        const int32_t size = otx_level_face_size(level, f);
+
+        s->angles[f] = otx_direction_angle(s->request->field, f);
+        for (int32_t i = 0; i < size; ++i)
+            s->mass[level->face_verts[level->face_first[f] + i]] +=
+                s->c->areas[f] / size;
+    }
+}
+
+static otx_status
+solve(solver *s)
+{
+    otx_status status;
+
+    OTX_TRY(allocate(s));
+    measure(s);
+    choose_senses(s);
+    status = otx_pool_for(s->run->pool, 2, solve_axis, s);
+    if (status == OSDTEX_ERROR_MEMORY)
+        return otx_fail_memory(s->run, "field");
+    if (status != OSDTEX_OK)
+        return otx_fail(
+            s->run, status, "field", OTX_NOWHERE,
+            "the periodic coordinates have no solution: the surface has "
+            "positions that are not finite");
+    for (int32_t f = 0; f < s->c->level->face_count; ++f)
+        lay_face(s, f);
+    OTX_TRY(mark_singular(s));
+    for (int32_t f = 0; f < s->c->level->face_count; ++f)
+        s->phase->defect_count += s->phase->defect[f];
+    return otx_progress(s->run, "field", 1.0);
+}
+
+otx_status
+otx_phase_solve(otx_run *run, const otx_phase_request *request, otx_phase *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    solver s = {
+        .run = run,
+        .request = request,
+        .c = request->field->connection,
+        .phase = out};
+    otx_status status;
+
+    *out = (otx_phase){.connection = s.c};
+    status = solve(&s);
+    otx_arena_release(run->scratch, mark);
+    return status;
+}

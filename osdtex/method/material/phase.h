@@ -1,0 +1,60 @@
+/* phase.h -- periodic coordinates that follow a direction field.
+ *
+ * Periodic global parameterization [Ray06; Ray09, sec. 2.3]: each of the two
+ * lattice coordinates s is kept at vertices as the complex number e^(2 pi i s),
+ * which does not see whole cells, and
+ *
+ *     sum over edges of w |z_j - e^(2 pi i step) z_i|^2
+ *
+ * is minimised, where `step` is what the gradient asks for along the edge.
+ * The coordinates then are single valued up to whole cells but for defects:
+ * faces around which the steps do not sum to zero.
+ *
+ * With a field of lines (symmetry 2) a face may take either sense. Across an
+ * edge where the senses differ s turns into -s, and z into its conjugate.
+ *
+ * [Ray06] Ray, Li, Levy, Sheffer, Alliez: Periodic global parameterization.
+ * [Ray09] Ray, Levy, Wang, Turk, Vallet: Material space texturing. */
+#ifndef OTX_METHOD_MATERIAL_PHASE_H
+#define OTX_METHOD_MATERIAL_PHASE_H
+
+#include "field/direction.h"
+
+typedef struct otx_phase_request
+{
+    const otx_direction *field; /* of symmetry 1 or 2 */
+    const double *log_scale;    /* [vert_count], see otx_scale_solve */
+    /* Cells per scene unit of the two coordinates, along the field's direction
+     * and to the left of it. */
+    otx_vec2 gradient[2];
+} otx_phase_request;
+
+typedef struct otx_phase
+{
+    const otx_connection *connection;
+    int8_t *match; /* [edge_count] 1, or -1 where senses differ */
+    /* [corner_count] cells; whole in a face that is no defect, and up to
+     * whole cells and sense the same in its neighbour. */
+    otx_vec2 *cells;
+    uint8_t *defect; /* [face_count] 1: steps do not sum to zero */
+    int32_t defect_count;
+} otx_phase;
+
+/* In run->arena. NUMERIC, MEMORY, CANCELLED. */
+otx_status
+otx_phase_solve(otx_run *run, const otx_phase_request *request, otx_phase *out);
+
+/* Makes the cells of neighbours equal, not only equal up to whole cells, as
+ * far as defects allow: faces are visited from the one farthest from a defect,
+ * so that what jumps remain lie between defects. Faces may change their sense.
+ *
+ *   distance  [face_count] from the nearest defect */
+otx_status
+otx_phase_unwrap(otx_run *run, otx_phase *phase, const double *distance);
+
+/* Distance of each face from the nearest marked one, along faces; scene units;
+ * INFINITY where none is reached. [face_count] in run->arena. MEMORY. */
+otx_status otx_phase_distance(
+    otx_run *run, const otx_connection *c, const uint8_t *marked, double **out);
+
+#endif
