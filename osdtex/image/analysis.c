@@ -15,7 +15,8 @@ enum
 {
     SIDE_MAX = 512, /* of the square that is looked at */
     PEAKS_MAX = 40,
-    ORDER_MAX = 12 /* multiples of a generator that are looked at */
+    ORDER_MAX = 12, /* multiples of a generator that are looked at */
+    POINTS_MIN = 10 /* that a lattice generates, opposite ones counted twice */
 };
 
 static const double LAG_SHARE = 0.62;    /* longest lag, of the side */
@@ -23,8 +24,9 @@ static const double OVERLAP_SHARE = 0.3; /* of the area, least, of a turn */
 static const double PAIR_SINE = 0.342;   /* least angle of a pair: 20 degrees */
 static const double LATTICE_REGULARITY = 0.45, LATTICE_CONTRAST = 0.12;
 static const double WEAK_REGULARITY = 0.2, WEAK_CONTRAST = 0.15;
+static const double NEARLY = 0.9; /* of the best rating */
 static const double COHERENCE = 0.22;
-static const double TURN_LIKENESS = 0.8;
+static const double TURN_LIKENESS = 0.75;
 static const double SKEW = 0.15;
 
 typedef struct square
@@ -32,6 +34,7 @@ typedef struct square
     otx_run *run;
     int32_t side;
     int32_t x0, y0; /* in the picture */
+    int32_t texel;  /* of the picture, along a side of one of the square */
     float *f;       /* [side * side] mean 0 */
 } square;
 
@@ -91,24 +94,42 @@ blur(otx_run *run, const float *from, float *to, int32_t n, double sigma)
     return OSDTEX_OK;
 }
 
+/* Mean luminance of a texel of the square. */
+static float
+box_mean(const square *s, const otx_image *lab, int32_t x, int32_t y)
+{
+    float sum = 0.0f;
+
+    for (int32_t j = 0; j < s->texel; ++j)
+        for (int32_t i = 0; i < s->texel; ++i)
+            sum += *otx_image_at(
+                lab, s->x0 + x * s->texel + i, s->y0 + y * s->texel + j);
+    return sum / (float)(s->texel * s->texel);
+}
+
 /* Cuts the centre square out, small enough to be quick. */
 static otx_status
 cut_square(otx_run *run, const otx_image *lab, square *out)
 {
     const int32_t shorter = lab->width < lab->height ? lab->width : lab->height;
-    const int32_t n = shorter < SIDE_MAX ? shorter : SIDE_MAX;
+    const int32_t texel = (shorter + SIDE_MAX - 1) / SIDE_MAX;
+    const int32_t n = shorter / texel;
     const size_t texels = (size_t)n * (size_t)n;
     float *slow = OTX_NEW(run->scratch, float, texels);
     double sum = 0.0;
 
     *out = (square){
-        run, n, (lab->width - n) / 2, (lab->height - n) / 2,
+        run,
+        n,
+        (lab->width - n * texel) / 2,
+        (lab->height - n * texel) / 2,
+        texel,
         OTX_NEW(run->scratch, float, texels)};
     if (!slow || !out->f)
         return otx_fail_memory(run, "exemplar");
     for (int32_t y = 0; y < n; ++y)
         for (int32_t x = 0; x < n; ++x)
-            out->f[y * n + x] = *otx_image_at(lab, out->x0 + x, out->y0 + y);
+            out->f[y * n + x] = box_mean(out, lab, x, y);
     OTX_TRY(blur(run, out->f, slow, n, n / 6.0));
     for (size_t i = 0; i < texels; ++i)
         slow[i] = out->f[i] - slow[i];
@@ -138,8 +159,8 @@ make_correlator(const square *s, correlator *out)
 
     out->size = otx_fft_good_size(2 * s->side);
     /* Making plans uses up the scratch arena; they are kept in the other. */
-    OTX_TRY(otx_fft_create(
-        s->run, s->run->arena, out->size, out->size, &out->fft));
+    OTX_TRY(
+        otx_fft_create(s->run, s->run->arena, out->size, out->size, &out->fft));
     out->stride = otx_fft_stride(out->fft);
     out->plane = OTX_NEW(a, float, out->stride *(size_t)out->size);
     out->scratch = OTX_NEW(a, float, otx_fft_scratch_floats(out->fft));
@@ -441,10 +462,12 @@ find_peaks(const lags *map, peak peaks[PEAKS_MAX])
 
 /* Mean correlation at the points i g0 + j g1 + offset within reach. */
 static double
-mean_at(const lags *map, const otx_vec2 g[2], otx_vec2 offset)
+mean_at(const lags *map, const otx_vec2 g[2], otx_vec2 offset, int32_t *count)
 {
     const double reach = map->reach - 1.0;
-    double sum = 0.0, count = 0.0;
+    double sum = 0.0;
+
+    *count = 0;
 
     for (int32_t j = -ORDER_MAX; j <= ORDER_MAX; ++j)
         for (int32_t i = -ORDER_MAX; i <= ORDER_MAX; ++i)
@@ -457,23 +480,9 @@ mean_at(const lags *map, const otx_vec2 g[2], otx_vec2 offset)
                 otx_vec2_dot(p, p) < 1e-6 * otx_vec2_dot(g[0], g[0]))
                 continue;
             sum += sample(map, p);
-            ++count;
+            ++*count;
         }
-    return count > 0.0 ? sum / count : 0.0;
-}
-
-static void
-rate_pair(
-    const lags *map, const otx_vec2 g[2], double *regularity, double *contrast)
-{
-    const otx_vec2 half[3] = {
-        otx_vec2_scale(0.5, g[0]), otx_vec2_scale(0.5, g[1]),
-        otx_vec2_scale(0.5, otx_vec2_add(g[0], g[1]))};
-
-    *regularity = mean_at(map, g, (otx_vec2){0, 0});
-    *contrast = INFINITY;
-    for (int k = 0; k < 3; ++k)
-        *contrast = fmin(*contrast, *regularity - mean_at(map, g, half[k]));
+    return *count > 0 ? sum / *count : 0.0;
 }
 
 /* Lagrange's reduction: the shortest pair that generates the same points. */
@@ -568,38 +577,76 @@ fit_generators(const lags *map, otx_vec2 g[2])
     }
 }
 
-/* The pair of peaks that generates the best lattice. */
+typedef struct rated
+{
+    otx_vec2 g[2];
+    double regularity, contrast;
+} rated;
+
+/* False where too few points lie within reach to speak of a lattice. */
+static bool
+rate_pair(const lags *map, rated *l)
+{
+    const otx_vec2 half[3] = {
+        otx_vec2_scale(0.5, l->g[0]), otx_vec2_scale(0.5, l->g[1]),
+        otx_vec2_scale(0.5, otx_vec2_add(l->g[0], l->g[1]))};
+    int32_t count;
+
+    l->regularity = mean_at(map, l->g, (otx_vec2){0, 0}, &count);
+    if (count < POINTS_MIN)
+        return false;
+    l->contrast = INFINITY;
+    for (int k = 0; k < 3; ++k)
+        l->contrast = fmin(
+            l->contrast, l->regularity - mean_at(map, l->g, half[k], &count));
+    return true;
+}
+
+/* Rates the lattice of two peaks; false where they generate none. */
+static bool
+rate_peaks(const lags *map, const peak *a, const peak *b, rated *out)
+{
+    *out = (rated){.g = {a->at, b->at}};
+    reduce(out->g);
+    if (fabs(otx_vec2_cross(out->g[0], out->g[1])) <
+        PAIR_SINE * otx_vec2_length(out->g[0]) * otx_vec2_length(out->g[1]))
+        return false;
+    return rate_pair(map, out);
+}
+
+/* The pair of peaks that generates the best lattice: the smallest cell among
+ * those that are nearly as regular as the most regular one, since a multiple
+ * of a cell is as regular as the cell. */
 static void
 find_lattice(const lags *map, otx_analysis *out)
 {
     peak peaks[PEAKS_MAX];
     const int32_t count = find_peaks(map, peaks);
-    double best = -INFINITY;
+    rated best = {.regularity = -INFINITY}, l;
+    double most = -INFINITY, smallest = INFINITY;
 
-    out->regularity = out->contrast = 0.0;
+    for (int32_t i = 0; i < count; ++i)
+        for (int32_t j = 0; j < i; ++j)
+            if (rate_peaks(map, &peaks[i], &peaks[j], &l))
+                most = fmax(most, l.regularity + l.contrast);
     for (int32_t i = 0; i < count; ++i)
         for (int32_t j = 0; j < i; ++j)
         {
-            otx_vec2 g[2] = {peaks[i].at, peaks[j].at};
-            double regularity, contrast;
-
-            if (fabs(otx_vec2_cross(g[0], g[1])) <
-                PAIR_SINE * otx_vec2_length(g[0]) * otx_vec2_length(g[1]))
+            if (!rate_peaks(map, &peaks[i], &peaks[j], &l) ||
+                l.regularity + l.contrast < NEARLY * most ||
+                fabs(otx_vec2_cross(l.g[0], l.g[1])) >= smallest)
                 continue;
-            rate_pair(map, g, &regularity, &contrast);
-            if (regularity + contrast <= best + 1e-9)
-                continue;
-            best = regularity + contrast;
-            out->regularity = regularity;
-            out->contrast = contrast;
-            out->generators[0] = g[0];
-            out->generators[1] = g[1];
+            smallest = (1.0 - 1e-6) * fabs(otx_vec2_cross(l.g[0], l.g[1]));
+            best = l;
         }
-    if (count < 2 || !isfinite(best))
+    if (!isfinite(best.regularity))
         return;
-    reduce(out->generators);
-    fit_generators(map, out->generators);
-    order(out->generators);
+    fit_generators(map, best.g);
+    order(best.g);
+    out->regularity = best.regularity;
+    out->contrast = best.contrast;
+    out->generators[0] = best.g[0];
+    out->generators[1] = best.g[1];
 }
 
 /* Where the picture tiles, whole pictures are whole cells: G = S M^-1 for the
@@ -620,7 +667,7 @@ fit_to_picture(const otx_image *image, bool wrap_x, bool wrap_y, otx_vec2 g[2])
     fit[1] = (otx_vec2){-c * w / whole, a * h / whole};
     for (int k = 0; k < 2; ++k)
         if (otx_vec2_length(otx_vec2_sub(fit[k], g[k])) >
-            0.03 * otx_vec2_length(g[k]))
+            0.06 * otx_vec2_length(g[k]))
             return;
     g[0] = fit[0];
     g[1] = fit[1];
@@ -655,8 +702,8 @@ measure_turn(
             best = i;
     *value = map.at[best];
     *centre = (otx_vec2){
-        s->x0 + 0.5 * (n + best % w - map.reach),
-        s->y0 + 0.5 * (n + best / w - map.reach)};
+        s->x0 + 0.5 * s->texel * (n + best % w - map.reach),
+        s->y0 + 0.5 * s->texel * (n + best / w - map.reach)};
     return OSDTEX_OK;
 }
 
@@ -667,8 +714,10 @@ classify(otx_analysis *a)
 {
     const bool lattice =
         a->regularity >= LATTICE_REGULARITY && a->contrast >= LATTICE_CONTRAST;
-    const bool weak =
-        a->regularity >= WEAK_REGULARITY && a->contrast >= WEAK_CONTRAST;
+    /* Where there is a grain it says more than a weak lattice. */
+    const bool weak = !lattice && a->coherence < COHERENCE &&
+                      a->regularity >= WEAK_REGULARITY &&
+                      a->contrast >= WEAK_CONTRAST;
     bool even;
 
     a->kind = lattice                     ? OTX_ANALYSIS_LATTICE
@@ -724,6 +773,8 @@ otx_analysis_run(
     OTX_TRY(cut_square(run, lab, &s));
     OTX_TRY(measure(&s, out));
     classify(out);
+    for (int k = 0; k < 2; ++k)
+        out->generators[k] = otx_vec2_scale(s.texel, out->generators[k]);
     if (out->kind == OTX_ANALYSIS_LATTICE)
         fit_to_picture(lab, wrap_x, wrap_y, out->generators);
     otx_arena_release(run->scratch, mark);
