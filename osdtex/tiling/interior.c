@@ -1,9 +1,22 @@
 /* interior.c -- strips over windows, cut by expansion moves. */
 #include "tiling/interior.h"
 
+#include <string.h>
+
 static const char STAGE[] = "tiles";
 
-/* A strip as a sheet of the tile: as deep as it reaches. */
+/* Whether a side may show at a place: as deep as its strip reaches, and not
+ * much nearer to another side. */
+static bool
+is_own(const otx_strip_sizes *s, otx_frame_place p)
+{
+    const int32_t end = s->side - 1 - p.t;
+
+    return p.depth < s->reach && p.depth < p.t + s->sew &&
+           p.depth < end + s->sew;
+}
+
+/* A strip as a sheet of the tile. */
 static otx_status
 lay_side(
     otx_run *run, const otx_frame_kit *kit, const otx_tile_name *name,
@@ -20,7 +33,7 @@ lay_side(
         {
             const otx_frame_place p = otx_frame_axes(n, side, x, y);
 
-            *texel++ = p.depth < kit->sizes.reach
+            *texel++ = is_own(&kit->sizes, p)
                            ? otx_frame_side_texel(kit, name, side, p)
                            : OTX_TEXEL_NONE;
         }
@@ -54,18 +67,26 @@ lock_rim(const otx_frame_kit *kit, otx_quilt *quilt)
                 *lock = (uint8_t)otx_frame_nearest(kit, x, y);
 }
 
-/* Expands every sheet in turn until a round brings nothing. */
+static bool
+is_seen(const otx_quilt *quilt, int32_t sheet)
+{
+    return memchr(
+               quilt->labels, sheet,
+               (size_t)quilt->width * (size_t)quilt->height) != NULL;
+}
+
+/* Expands every sheet once, then those that are seen until a round brings
+ * nothing. */
 static otx_status
 settle(otx_run *run, otx_quilt *quilt, int32_t rounds)
 {
-    for (int32_t side = 0; side < 4; ++side)
-        OTX_TRY(otx_quilt_expand(run, quilt, side));
     for (int32_t round = 0; round < rounds; ++round)
     {
         const int64_t before = quilt->cost;
 
-        for (int32_t s = quilt->sheet_count - 1; s >= 0; --s)
-            OTX_TRY(otx_quilt_expand(run, quilt, s));
+        for (int32_t s = 0; s < quilt->sheet_count; ++s)
+            if (round == 0 || is_seen(quilt, s))
+                OTX_TRY(otx_quilt_expand(run, quilt, s));
         if (quilt->cost == before)
             break;
     }

@@ -8,8 +8,13 @@ enum
     END
 };
 
-/* The corner around t = `at` as a sheet: all of its reach along t, which is
- * how far a cut may wander. */
+static bool
+is_within(int32_t half, int32_t x, int32_t y)
+{
+    return x >= -half && x < half && y >= -half && y < half;
+}
+
+/* The corner around t = `at` as a sheet. */
 static otx_status
 lay_corner(
     otx_run *run, const otx_strip_sizes *sizes, const otx_corner *corner,
@@ -26,7 +31,7 @@ lay_corner(
         {
             const int32_t x = t - at;
 
-            *texel++ = x >= -sizes->reach && x < sizes->reach
+            *texel++ = is_within(sizes->sew, x, d)
                            ? otx_corner_texel(corner, x, d)
                            : OTX_TEXEL_NONE;
         }
@@ -42,9 +47,11 @@ lock_ends(const otx_strip_sizes *sizes, otx_quilt *quilt)
     for (int32_t d = 0; d < quilt->height; ++d)
         for (int32_t t = 0; t < quilt->width; ++t, ++lock)
         {
-            if (t < sizes->core)
+            const int32_t y = d - sizes->reach;
+
+            if (is_within(sizes->core, t, y))
                 *lock = START;
-            else if (t >= sizes->side - sizes->core)
+            else if (is_within(sizes->core, t - sizes->side, y))
                 *lock = END;
         }
 }

@@ -22,7 +22,9 @@ typedef struct otx_strip_sizes
     int32_t side;   /* length of an edge */
     int32_t gutter; /* width to which an edge decides what is seen */
     int32_t core;   /* half-width of the square that a corner decides */
-    int32_t reach;  /* of corners and strips: how far a cut may wander */
+    int32_t sew;    /* half-width of corners: how far a cut may wander that
+                     * sews a strip to them */
+    int32_t reach;  /* half-width of strips, likewise for insides */
 } otx_strip_sizes;
 
 /* Sews `edge` [2 reach * side] between `start` (t = 0) and `end`. */

@@ -3,12 +3,15 @@
 #include "base/random.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum
 {
-    CORNER_CANDIDATES = 96,
+    CORNER_CANDIDATES = 256,
     EDGE_CANDIDATES = 64,
+    SHARE = 2,
+    MARGIN = 4, /* texels around a corner's core that are looked at too */
     CORNER_STAGE = 0x7469c002,
     EDGE_STAGE = 0x7469c003
 };
@@ -22,28 +25,29 @@ otx_template_extra(
     return options->edge_count * 2 * sizes->reach * sizes->side;
 }
 
-/* Mean and spread of the Lab of a window's texels. */
+/* Mean and spread of the Lab of a map's texels. */
 typedef struct look
 {
     double mean[3];
     double spread;
 } look;
 
+/* Of the texels but for a rim of `rim` along x and y. */
 static look
 look_at(
-    const otx_texel_pool *pool, otx_texel_window window, int32_t width,
-    int32_t height)
+    const otx_texel_pool *pool, const otx_texel_map *map, int32_t rim_x,
+    int32_t rim_y)
 {
-    const double count = (double)width * height;
+    const double count =
+        (double)(map->width - 2 * rim_x) * (map->height - 2 * rim_y);
     double square = 0.0;
     look l = {{0.0, 0.0, 0.0}, 0.0};
 
-    for (int32_t y = 0; y < height; ++y)
-        for (int32_t x = 0; x < width; ++x)
+    for (int32_t y = rim_y; y < map->height - rim_y; ++y)
+        for (int32_t x = rim_x; x < map->width - rim_x; ++x)
         {
             const float *lab =
-                pool->lab + 3 * (size_t)otx_texel_pool_window(
-                                    pool, window, width, height, x, y);
+                pool->lab + 3 * (size_t)otx_texel_map_at(map, x, y);
 
             for (int32_t c = 0; c < 3; ++c)
             {
@@ -55,6 +59,21 @@ look_at(
         square -= l.mean[c] * l.mean[c];
     l.spread = sqrt(fmax(square, 0.0));
     return l;
+}
+
+/* Of the whole exemplar. */
+static otx_status
+look_around(otx_run *run, const otx_texel_pool *pool, look *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    otx_texel_map all;
+
+    OTX_TRY(otx_texel_map_create(
+        run, run->scratch, pool->width, pool->height, &all));
+    otx_texel_pool_lay(pool, (otx_texel_window){0, 0, 0}, &all);
+    *out = look_at(pool, &all, 0, 0);
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
 }
 
 /* How far a window is from the whole picture: 0 typical. Distances are in
@@ -84,7 +103,8 @@ typedef struct contest
     uint64_t element; /* of the random numbers */
     int32_t turns, turns_step;
     otx_texel_window *windows; /* [count] */
-    double *scores;            /* [count] */
+    int64_t *costs;            /* [count] of the cuts */
+    double *oddness;           /* [count] */
 } contest;
 
 static otx_run
@@ -112,28 +132,23 @@ draw_window(
         (int32_t)(y * otx_random_unit(seed, stage, element + 1)), 0};
 }
 
-/* The cost of a cut counts as much as it is long; what is odd about a window
- * is seen all over it. */
-static double
-score_of(int64_t cost, double odd)
-{
-    return ((double)cost + 1.0) * (1.0 + odd);
-}
-
 static otx_status
 try_corner(void *context, int64_t index, otx_worker *worker)
 {
     contest *c = context;
     otx_run run = worker_run(c, worker);
-    const int32_t reach = c->kit->sizes.reach, size = 2 * reach;
+    const int32_t sew = c->kit->sizes.sew;
+    const int32_t rim = sew - c->kit->sizes.core - MARGIN;
     const otx_texel_window window =
-        draw_window(c, CORNER_STAGE, index, size, size);
+        draw_window(c, CORNER_STAGE, index, 2 * sew, 2 * sew);
     otx_corner corner;
 
-    OTX_TRY(otx_corner_build(&run, c->pool, window, reach, &corner));
+    OTX_TRY(otx_corner_build(&run, c->pool, window, sew, &corner));
     c->windows[index] = window;
-    c->scores[index] = score_of(
-        corner.cost, oddness(look_at(c->pool, window, size, size), c->whole));
+    c->costs[index] = corner.cost;
+    c->oddness[index] = oddness(
+        look_at(c->pool, &corner.map, rim > 0 ? rim : 0, rim > 0 ? rim : 0),
+        c->whole);
     return OSDTEX_OK;
 }
 
@@ -163,9 +178,37 @@ try_edge(void *context, int64_t index, otx_worker *worker)
         &run, c->pool, s, &edge, &c->kit->corners[0], &c->kit->corners[0],
         &strip));
     c->windows[index] = window;
-    c->scores[index] = score_of(
-        strip.cost,
-        oddness(look_at(c->pool, window, s->side, 2 * s->reach), c->whole));
+    c->costs[index] = strip.cost;
+    c->oddness[index] =
+        oddness(look_at(c->pool, &strip.map, 0, s->reach - s->core), c->whole);
+    return OSDTEX_OK;
+}
+
+static int
+compare_reals(const void *a, const void *b)
+{
+    const double p = *(const double *)a, q = *(const double *)b;
+
+    return p < q ? -1 : p > q;
+}
+
+/* A cut is cheapest where there is nothing to see. So only the most typical
+ * candidates count, one in SHARE, and among them the cheapest wins. */
+static otx_status
+judge(otx_run *run, const contest *c, int32_t count, otx_texel_window *winner)
+{
+    double *sorted = OTX_NEW(run->scratch, double, count);
+    int32_t best = -1;
+
+    if (!sorted)
+        return otx_fail_memory(run, STAGE);
+    memcpy(sorted, c->oddness, (size_t)count * sizeof *sorted);
+    qsort(sorted, (size_t)count, sizeof *sorted, compare_reals);
+    for (int32_t i = 0; i < count; ++i)
+        if (c->oddness[i] <= sorted[count / SHARE] &&
+            (best < 0 || c->costs[i] < c->costs[best]))
+            best = i;
+    *winner = c->windows[best];
     return OSDTEX_OK;
 }
 
@@ -176,18 +219,15 @@ hold(
     otx_texel_window *winner)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    int32_t best = 0;
 
     c->run = run;
     c->windows = OTX_NEW(run->scratch, otx_texel_window, count);
-    c->scores = OTX_NEW(run->scratch, double, count);
-    if (!c->windows || !c->scores)
+    c->costs = OTX_NEW(run->scratch, int64_t, count);
+    c->oddness = OTX_NEW(run->scratch, double, count);
+    if (!c->windows || !c->costs || !c->oddness)
         return otx_fail_memory(run, STAGE);
     OTX_TRY(otx_pool_for(run->pool, count, body, c));
-    for (int32_t i = 1; i < count; ++i)
-        if (c->scores[i] < c->scores[best])
-            best = i;
-    *winner = c->windows[best];
+    OTX_TRY(judge(run, c, count, winner));
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }
@@ -198,7 +238,7 @@ build_corners(
     const otx_tileset_options *options, contest *c, int32_t attempt,
     otx_frame_kit *kit)
 {
-    const int32_t reach = kit->sizes.reach;
+    const int32_t sew = kit->sizes.sew;
 
     for (int32_t i = 0; i < kit->corner_count; ++i)
     {
@@ -206,14 +246,14 @@ build_corners(
 
         if (i == 0 && options->has_corner)
             window = (otx_texel_window){
-                (int32_t)floor(options->corner.x + 0.5) - reach,
-                (int32_t)floor(options->corner.y + 0.5) - reach, 0};
+                (int32_t)floor(options->corner.x + 0.5) - sew,
+                (int32_t)floor(options->corner.y + 0.5) - sew, 0};
         else
         {
             c->element = (uint64_t)(attempt * kit->corner_count + i);
             OTX_TRY(hold(run, c, CORNER_CANDIDATES, try_corner, &window));
         }
-        OTX_TRY(otx_corner_build(run, pool, window, reach, &kit->corners[i]));
+        OTX_TRY(otx_corner_build(run, pool, window, sew, &kit->corners[i]));
     }
     return OSDTEX_OK;
 }
@@ -277,7 +317,6 @@ otx_template_kit(
     otx_run *run, otx_texel_pool *pool, const otx_tileset_options *options,
     const otx_tile_layout *layout, int32_t attempt, otx_frame_kit *kit)
 {
-    const otx_texel_window all = {0, 0, 0};
     const int32_t v = kit->corner_count;
     contest c = {.pool = pool, .kit = kit};
 
@@ -285,7 +324,7 @@ otx_template_kit(
     kit->strips = OTX_ZNEW(run->arena, otx_strip, kit->boundary_count * v * v);
     if (!kit->corners || !kit->strips)
         return otx_fail_memory(run, STAGE);
-    c.whole = look_at(pool, all, pool->width, pool->height);
+    OTX_TRY(look_around(run, pool, &c.whole));
     OTX_TRY(build_corners(run, pool, options, &c, attempt, kit));
     return build_strips(run, pool, options, layout, &c, attempt, kit);
 }

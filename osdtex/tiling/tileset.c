@@ -24,12 +24,15 @@ static otx_strip_sizes
 sizes_of(const otx_tile_layout *layout)
 {
     const int32_t side = otx_tile_layout_side(layout);
+    const int32_t core = layout->gutter + RAY, sew = core + side / 12;
+    const int32_t reach = side / 4;
 
     return (otx_strip_sizes){
         .side = side,
         .gutter = layout->gutter,
-        .core = layout->gutter + RAY,
-        .reach = side / 4,
+        .core = core,
+        .sew = sew,
+        .reach = reach > sew ? reach : sew,
     };
 }
 
@@ -121,14 +124,14 @@ check_templates(
     const otx_tileset_options *options, const otx_strip_sizes *sizes)
 {
     if (options->has_corner &&
-        !(options->corner.x >= sizes->reach &&
-          options->corner.x <= exemplar->linear.width - sizes->reach &&
-          options->corner.y >= sizes->reach &&
-          options->corner.y <= exemplar->linear.height - sizes->reach))
+        !(options->corner.x >= sizes->sew &&
+          options->corner.x <= exemplar->linear.width - sizes->sew &&
+          options->corner.y >= sizes->sew &&
+          options->corner.y <= exemplar->linear.height - sizes->sew))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "the corner template needs %d texels of picture on all sides",
-            (int)sizes->reach);
+            (int)sizes->sew);
     for (int32_t i = 0; i < options->edge_count; ++i)
     {
         const otx_tileset_edge *e = &options->edges[i];
