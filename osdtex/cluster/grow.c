@@ -14,8 +14,8 @@
 enum
 {
     LLOYD_ROUNDS = 8,
-    OUTSIDE = -2, /* not a face of the region */
-    UNREACHED = -1
+    OUTSIDE = -1, /* not a face of the region; all bits set */
+    UNREACHED = -2
 };
 
 /* One growth. Arrays are over the faces of the level. */
@@ -29,7 +29,20 @@ typedef struct growth
     double *distance; /* to the owner's seed */
     int32_t *seeds;   /* faces */
     int32_t seed_count;
+    /* While seeds are placed: faces by falling distance, with stale entries.
+     * Looking through all faces for each seed would be quadratic. */
+    otx_queue far;
+    bool placing;
 } growth;
+
+static bool
+reach(growth *g, otx_queue *queue, int32_t face, int32_t seed, double distance)
+{
+    g->owner[face] = seed;
+    g->distance[face] = distance;
+    return otx_queue_push(queue, distance, face) &&
+           (!g->placing || otx_queue_push(&g->far, -distance, face));
+}
 
 /* Spreads from one seed to where it is nearer than what was there. */
 static bool
@@ -39,9 +52,7 @@ spread(growth *g, otx_queue *queue, int32_t seed)
     otx_queue_entry entry;
 
     queue->count = 0;
-    g->owner[g->seeds[seed]] = seed;
-    g->distance[g->seeds[seed]] = 0.0;
-    if (!otx_queue_push(queue, 0.0, g->seeds[seed]))
+    if (!reach(g, queue, g->seeds[seed], seed, 0.0))
         return false;
     while (otx_queue_pop(queue, &entry))
     {
@@ -59,9 +70,7 @@ spread(growth *g, otx_queue *queue, int32_t seed)
             distance = entry.key + otx_dual_step(g->dual, face, next, g->bend);
             if (g->owner[next] != UNREACHED && distance >= g->distance[next])
                 continue;
-            g->owner[next] = seed;
-            g->distance[next] = distance;
-            if (!otx_queue_push(queue, distance, next))
+            if (!reach(g, queue, next, seed, distance))
                 return false;
         }
     }
@@ -78,20 +87,30 @@ forget(growth *g)
     }
 }
 
-/* The face of the region farthest from all seeds; unreached ones first. */
-static int32_t
-farthest(const growth *g)
+/* Forgets all, and has the faces wait for seeds. */
+static bool
+begin_placing(growth *g)
 {
-    int32_t best = g->region->faces[0];
-
+    forget(g);
+    g->placing = true;
+    g->far.count = 0;
     for (int32_t i = 0; i < g->region->face_count; ++i)
-    {
-        const int32_t face = g->region->faces[i];
+        if (!otx_queue_push(&g->far, -INFINITY, g->region->faces[i]))
+            return false;
+    return true;
+}
 
-        if (g->distance[face] > g->distance[best])
-            best = face;
-    }
-    return best;
+/* The face of the region farthest from all seeds, unreached ones first, of
+ * equals the first. It leaves the queue; one at a seed is as near as any. */
+static int32_t
+farthest(growth *g)
+{
+    otx_queue_entry entry;
+
+    while (otx_queue_pop(&g->far, &entry))
+        if (-entry.key == g->distance[entry.item])
+            return entry.item;
+    return g->seeds[0];
 }
 
 static bool
@@ -100,11 +119,10 @@ place_seeds(growth *g, otx_queue *queue, int32_t wanted)
     /* The first is far from an arbitrary face, so that it lies at an end. */
     g->seeds[0] = g->region->faces[0];
     g->seed_count = 1;
-    if (!spread(g, queue, 0))
+    if (!begin_placing(g) || !spread(g, queue, 0))
         return false;
     g->seeds[0] = farthest(g);
-    forget(g);
-    if (!spread(g, queue, 0))
+    if (!begin_placing(g) || !spread(g, queue, 0))
         return false;
     while (g->seed_count < g->region->face_count)
     {
@@ -119,6 +137,7 @@ place_seeds(growth *g, otx_queue *queue, int32_t wanted)
         if (!spread(g, queue, g->seed_count++))
             return false;
     }
+    g->placing = false;
     return true;
 }
 
@@ -225,9 +244,8 @@ grow_regions(
     g.seeds = OTX_NEW(run->scratch, int32_t, region->face_count);
     if (!g.owner || !g.distance || !g.seeds)
         return otx_fail_memory(run, "cluster");
-    for (int32_t f = 0; f < n; ++f)
-        g.owner[f] = OUTSIDE;
-    forget(&g);
+    memset(g.owner, OUTSIDE, (size_t)n * sizeof *g.owner);
+    g.far = otx_queue_make(run->scratch);
     if (!place_seeds(&g, &queue, wanted) || !lloyd(&g, &queue, run->scratch))
         return otx_fail_memory(run, "cluster");
     return collect(&g, out);
@@ -338,7 +356,8 @@ grow_discs(
                            member, 1);
         for (int32_t k = 0; k < c->face_count; ++k)
             member[c->faces[k]] = 0;
-        if (!disc && wanted > 1 && c->face_count == region->face_count)
+        if (wanted > 1 && c->face_count > 1 &&
+            c->face_count == region->face_count)
             OTX_TRY(append_faces(run, dual, c, out, capacity));
         else if (!disc)
             OTX_TRY(grow_discs(run, dual, c, 2, bend, out, capacity, member));

@@ -192,20 +192,46 @@ place_freely(
     return false;
 }
 
-/* The user's first patch: its middle at a given place, turned as asked. */
-static otx_match
-place_first(const otx_mapper *m, otx_vec2 middle)
+/* Nearest shift to the wanted one that keeps points between low and high
+ * inside along an axis that does not tile; centred when there is no room. */
+static double
+shift_inside(bool wraps, double size, double low, double high, double wanted)
+{
+    const double least = 0.5 - low, most = size - 0.5 - high;
+
+    if (wraps)
+        return wanted;
+    return least <= most ? fmin(fmax(wanted, least), most)
+                         : 0.5 * (least + most);
+}
+
+/* The user's first patch: its middle at a given place, turned as asked, or as
+ * near to there as it lies inside. False when it does not fit so turned. */
+static bool
+place_first(
+    const otx_mapper *m, otx_vec2 middle, const otx_vec2 *points, int32_t count,
+    otx_match *out)
 {
     const otx_map_request *r = m->request;
-    const otx_vec2 target = {
-        r->first_position.x * m->exemplar->match.width,
-        r->first_position.y * m->exemplar->match.height};
+    const otx_exemplar *e = m->exemplar;
+    const double w = e->match.width, h = e->match.height;
+    const otx_vec2 turn = otx_vec2_polar(r->first_angle);
+    const otx_vec2 target = {r->first_position.x * w, r->first_position.y * h};
+    otx_vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+    otx_vec2 shift = otx_vec2_sub(target, otx_vec2_mul(turn, middle));
 
-    return (otx_match){
-        r->first_angle,
-        otx_vec2_sub(
-            target, otx_vec2_mul(otx_vec2_polar(r->first_angle), middle)),
-        0.0};
+    for (int32_t i = 0; i < count; ++i)
+    {
+        const otx_vec2 p = otx_vec2_mul(turn, points[i]);
+
+        low = (otx_vec2){fmin(low.x, p.x), fmin(low.y, p.y)};
+        high = (otx_vec2){fmax(high.x, p.x), fmax(high.y, p.y)};
+    }
+    shift.x = shift_inside(e->wrap_x, w, low.x, high.x, shift.x);
+    shift.y = shift_inside(e->wrap_y, h, low.y, high.y, shift.y);
+    *out = (otx_match){r->first_angle, shift, 0.0};
+    return (e->wrap_x || high.x - low.x <= w - 1.0) &&
+           (e->wrap_y || high.y - low.y <= h - 1.0);
 }
 
 static otx_status
@@ -320,15 +346,16 @@ otx_fit_node(otx_mapper *m, int32_t index, bool *accepted)
         return otx_fail_memory(m->run, "map");
     OTX_TRY(make_mask(m, node, &mask));
     if (is_users_first(m, node))
-    {
-        best[0] = place_first(m, middle);
-        count = 1;
-    }
+        count = place_first(m, middle, points, point_count, &best[0]);
     else if (mask.triangle_count == 0)
         count = place_freely(m, index, points, point_count, &best[0]);
     else
         OTX_TRY(
             search(m, index, &mask, middle, points, point_count, best, &count));
+    /* The surroundings may reach out of the exemplar where the patch does not;
+     * a patch that cannot be split goes without them. */
+    if (count == 0 && !otx_nodes_can_split(m, node))
+        count = place_freely(m, index, points, point_count, &best[0]);
     if (m->settings.relax == OTX_HIERARCHICAL_RELAX_LOOP && count > 0 &&
         mask.triangle_count > 0)
         OTX_TRY(otx_loop_relax(m, index, best, count, &best[0]));

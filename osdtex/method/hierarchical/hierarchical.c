@@ -38,9 +38,8 @@ flatten_all(otx_mapper *m)
                 otx_nodes_can_split(m, &m->nodes[i]))
                 OTX_TRY(otx_nodes_split(m, i));
         first = end;
-        OTX_TRY(otx_progress(m->run, "flatten", 0.0));
     }
-    return otx_progress(m->run, "flatten", 1.0);
+    return OSDTEX_OK;
 }
 
 /* Tells the neighbours of a new patch that more of their border is textured.

@@ -12,6 +12,7 @@
 #include "flatten/chart.h"
 #include "match/match.h"
 #include "method/method.h"
+#include "relax/cut.h"
 
 typedef enum otx_hierarchical_mode
 {
@@ -94,6 +95,7 @@ typedef struct otx_mapper
     otx_map_stats *stats;
     double texels; /* per scene unit */
     otx_dual leaves;
+    otx_dual duals[OTX_LEVEL_MAX + 1]; /* of levels, where made */
     otx_matcher *matcher;
     otx_chart_space *spaces; /* [threads] */
 
@@ -104,8 +106,10 @@ typedef struct otx_mapper
     otx_vec2 *uvs;       /* [leaf corner_count] texels, where textured */
     int32_t patch_count;
     int32_t *patch_node; /* [leaf face_count] */
-    float *usage;        /* see otx_match_query */
-    double done_area;    /* of textured leaves */
+    otx_offer *offers;   /* [offer_count], of the first patches */
+    int32_t offer_count;
+    float *usage;     /* see otx_match_query */
+    double done_area; /* of textured leaves */
     double total_area;
 } otx_mapper;
 
@@ -153,6 +157,12 @@ int32_t otx_band_clip(
 otx_status otx_loop_relax(
     otx_mapper *m, int32_t node, const otx_match *placed, int32_t count,
     otx_match *best);
+
+/* offer.c: what patches can show, and the cut that chooses. */
+/* Makes the offer of every patch. */
+otx_status otx_offers_make(otx_mapper *m);
+/* Re-assigns faces between all offers, and takes their UVs over. */
+otx_status otx_offers_cut(otx_mapper *m, otx_cut_stats *stats);
 
 /* assemble.c: cut, relaxation, and the mapping that is handed out. */
 otx_status otx_assemble(otx_mapper *m, otx_mapping *out);

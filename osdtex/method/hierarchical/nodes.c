@@ -116,6 +116,16 @@ atom_level(const otx_mapper *m)
     return level;
 }
 
+/* The dual of a level, made when it is first asked for. */
+static otx_status
+dual_of(otx_mapper *m, int32_t level, const otx_dual **out)
+{
+    *out = &m->duals[level];
+    if (m->duals[level].level)
+        return OSDTEX_OK;
+    return otx_dual_build(m->run, m->surface, level, &m->duals[level]);
+}
+
 static otx_status
 start_grown(otx_mapper *m, otx_cluster_list *out)
 {
@@ -124,34 +134,39 @@ start_grown(otx_mapper *m, otx_cluster_list *out)
     const int32_t count = m->surface->levels[level].face_count;
     int32_t *faces = OTX_NEW(m->run->arena, int32_t, count);
     otx_cluster all = {level, count, faces, m->surface->area};
-    otx_dual dual;
+    const otx_dual *dual;
 
     if (!faces)
         return otx_fail_memory(m->run, "map");
     for (int32_t f = 0; f < count; ++f)
         faces[f] = f;
-    OTX_TRY(otx_dual_build(m->run, m->surface, level, &dual));
+    OTX_TRY(dual_of(m, level, &dual));
     return otx_cluster_grow(
-        m->run, &dual, &all, diameter * diameter, 1, BEND, out);
+        m->run, dual, &all, diameter * diameter, 1, BEND, out);
 }
 
 otx_status
 otx_nodes_start(otx_mapper *m)
 {
     otx_cluster_list list;
-    otx_dual dual;
+    const otx_dual *dual;
 
     if (m->settings.clusters == OTX_HIERARCHICAL_GROWN)
         OTX_TRY(start_grown(m, &list));
     else
     {
-        OTX_TRY(otx_dual_build(m->run, m->surface, 0, &dual));
-        OTX_TRY(otx_cluster_faces(m->run, &dual, &list));
+        OTX_TRY(dual_of(m, 0, &dual));
+        OTX_TRY(otx_cluster_faces(m->run, dual, &list));
     }
     return append_list(m, &list, 0);
 }
 
 /* -- charts -------------------------------------------------------------- */
+
+enum
+{
+    NODES_PER_STEP = 64 /* between two chances to cancel */
+};
 
 typedef struct flatten_job
 {
@@ -174,7 +189,7 @@ flatten_node(void *context, int64_t index, otx_worker *worker)
     otx_node *node = &m->nodes[job->first + index];
     const double size = node_size(m, node);
     const bool cut = m->settings.cut == OTX_HIERARCHICAL_ON;
-    const double collar = cut ? fmin(80.0, m->settings.collar * size)
+    const double collar = cut ? fmin(140.0, m->settings.collar * size)
                               : fmin(32.0, m->settings.band * size);
     const otx_chart_request request = {
         .surface = m->surface,
@@ -223,13 +238,21 @@ otx_nodes_defer(otx_mapper *m)
 otx_status
 otx_nodes_flatten(otx_mapper *m, int32_t first, int32_t end)
 {
-    flatten_job job = {m, first};
-    const otx_status status =
-        otx_pool_for(m->run->pool, end - first, flatten_node, &job);
+    while (first < end)
+    {
+        const int32_t count =
+            end - first < NODES_PER_STEP ? end - first : NODES_PER_STEP;
+        flatten_job job = {m, first};
+        const otx_status status =
+            otx_pool_for(m->run->pool, count, flatten_node, &job);
 
-    if (status == OSDTEX_ERROR_MEMORY)
-        return otx_fail_memory(m->run, "map");
-    return status;
+        if (status == OSDTEX_ERROR_MEMORY)
+            return otx_fail_memory(m->run, "map");
+        OTX_TRY(status);
+        first += count;
+        OTX_TRY(otx_progress(m->run, "flatten", (double)first / end));
+    }
+    return OSDTEX_OK;
 }
 
 bool
@@ -254,11 +277,11 @@ otx_nodes_is_flat(const otx_mapper *m, const otx_node *node)
 static otx_status
 split_grown(otx_mapper *m, const otx_node *node, otx_cluster_list *out)
 {
-    otx_dual dual;
+    const otx_dual *dual;
 
-    OTX_TRY(otx_dual_build(m->run, m->surface, node->cluster.level, &dual));
+    OTX_TRY(dual_of(m, node->cluster.level, &dual));
     return otx_cluster_grow(
-        m->run, &dual, &node->cluster, 0.25 * node->cluster.area, 2, BEND, out);
+        m->run, dual, &node->cluster, 0.25 * node->cluster.area, 2, BEND, out);
 }
 
 otx_status

@@ -54,7 +54,7 @@ const otx_option otx_hierarchical_options[] = {
     {"tau", OTX_OPTION_REAL, FIELD(tau), 0, 100, 0, NULL,
      "Fitting error above which a patch is split, in units of two random "
      "texels' difference; 0 chooses by the exemplar's contrast"},
-    {"usage", OTX_OPTION_REAL, FIELD(usage), 0, 10, 0, NULL,
+    {"usage", OTX_OPTION_REAL, FIELD(usage), 0, 10, 0.5, NULL,
      "Penalty for parts of the exemplar that were used before, against "
      "motifs that recur"},
     {"cut", OTX_OPTION_CHOICE, FIELD(cut), 0, 0, 0, AUTO_OFF_ON,
@@ -92,13 +92,13 @@ coarse_levels(const otx_exemplar *exemplar)
     return levels;
 }
 
-/* A third of the exemplar's shorter side, at most 128 texels. */
+/* Large patches carry the exemplar's structure and have few seams; beyond
+ * this share of the exemplar's shorter side there is too little choice left of
+ * where to take them from. */
 static double
 patch_size(const otx_exemplar *exemplar)
 {
-    const double side = fmin(exemplar->match.width, exemplar->match.height);
-
-    return fmin(128.0, fmax(24.0, 0.34 * side));
+    return 0.38 * fmin(exemplar->match.width, exemplar->match.height);
 }
 
 /* Seams do not show while they stay below the exemplar's own contrast between
