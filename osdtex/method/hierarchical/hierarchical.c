@@ -160,6 +160,10 @@ fit_all(otx_mapper *m)
             OTX_TRY(descend(m, &queue, entry.item));
         else if (!wake_neighbours(m, &queue, entry.item))
             return otx_fail_memory(m->run, "map");
+        /* The user's first patch was split: its part comes first. */
+        if (first >= 0 && m->patch_count == 0 &&
+            !otx_queue_push(&queue, -INFINITY, users_first(m)))
+            return otx_fail_memory(m->run, "map");
         OTX_TRY(otx_progress(m->run, "fit", m->done_area / m->total_area));
     }
     return OSDTEX_OK;
