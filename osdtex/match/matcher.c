@@ -147,6 +147,24 @@ typedef struct scorer
     double weight;
 } scorer;
 
+/* Squared difference of the mask's colour at `source` and a texel. */
+static inline double
+square_at(const otx_plane *plane, otx_vec2 source, const float *texel)
+{
+    float color[OTX_PLANE_LANES];
+    double square = 0.0;
+
+    otx_plane_sample(
+        plane, otx_plane_wrap(source.x, plane->width, plane->wrap_x),
+        otx_plane_wrap(source.y, plane->height, plane->wrap_y), color);
+    /* All lanes at once, before they are widened and added up in order. */
+    for (int k = 0; k < OTX_PLANE_LANES; ++k)
+        color[k] -= texel[k];
+    for (int k = 0; k < OTX_PLANE_LANES; ++k)
+        square += (double)color[k] * (double)color[k];
+    return square;
+}
+
 static void
 score_span(void *context, const otx_mask_span *span)
 {
@@ -160,27 +178,13 @@ score_span(void *context, const otx_mask_span *span)
     {
         const int32_t x =
             otx_plane_wrap_index(span->x + n, plane->width, plane->wrap_x);
-        const float *texel = otx_plane_at(plane, x, y);
-        const double weight = fmax(0.0, span->weight + n * span->weight_step);
-        double square = 0.0;
-        float color[OTX_PLANE_LANES];
+        const double linear = span->weight + n * span->weight_step;
+        const double weight = linear > 0.0 ? linear : 0.0;
+        const otx_vec2 source = {
+            span->source.x + n * span->source_step.x,
+            span->source.y + n * span->source_step.y};
 
-        otx_plane_sample(
-            plane,
-            otx_plane_wrap(
-                span->source.x + n * span->source_step.x, plane->width,
-                plane->wrap_x),
-            otx_plane_wrap(
-                span->source.y + n * span->source_step.y, plane->height,
-                plane->wrap_y),
-            color);
-        for (int k = 0; k < OTX_PLANE_LANES; ++k)
-        {
-            const double d = (double)(color[k] - texel[k]);
-
-            square += d * d;
-        }
-        sum += weight * square;
+        sum += weight * square_at(plane, source, otx_plane_at(plane, x, y));
         weights += weight;
     }
     s->sum += sum;

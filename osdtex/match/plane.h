@@ -55,6 +55,11 @@ otx_plane_wrap(double x, int32_t size, bool wrap)
         return x < 0.5 ? 0.5 : x > size - 0.5 ? size - 0.5 : x;
     if (x >= 0.0 && x < size)
         return x;
+    /* Mostly it is the next period: no division, no call of floor. */
+    const double near = x < 0.0 ? x + size : x - size;
+
+    if (near >= 0.0 && near < size)
+        return near;
     x -= size * floor(x / size);
     return x < size ? x : 0.0; /* -epsilon rounds up to size */
 }
@@ -64,6 +69,8 @@ otx_plane_wrap_index(int32_t x, int32_t size, bool wrap)
 {
     if (!wrap)
         return x < 0 ? 0 : x >= size ? size - 1 : x;
+    if (x >= 0 && x < size)
+        return x;
     x %= size;
     return x < 0 ? x + size : x;
 }

@@ -99,6 +99,15 @@ typedef struct sample
     int32_t x, y; /* pixel of the level */
 } sample;
 
+/* libm's floor is a call where the processor is not known to be recent. */
+static inline double
+floor_of(double x)
+{
+    const double i = (double)(int32_t)x;
+
+    return x < i ? i - 1.0 : i;
+}
+
 /* The pick as it falls on the pixels of the level under a placement. */
 static sample
 snap(
@@ -106,7 +115,7 @@ snap(
     const otx_mask_frame *frame)
 {
     const otx_vec2 q = otx_mask_place(frame, pick->flat);
-    const otx_vec2 cell = {floor(q.x), floor(q.y)};
+    const otx_vec2 cell = {floor_of(q.x), floor_of(q.y)};
     const otx_vec2 back = {frame->rotation.x, -frame->rotation.y};
     const otx_vec2 move = otx_vec2_mul(
         back, (otx_vec2){
@@ -205,7 +214,7 @@ otx_polish_window(
 /* -------------------------------------------------------- Gauss-Newton */
 
 /* Normal equations of sum w |I - T(p)|^2 in (x, y, angle about the centroid).
- */
+ * Of the symmetric matrix only the upper triangle is summed. */
 typedef struct normal
 {
     double a[3][3];
@@ -214,42 +223,49 @@ typedef struct normal
     double weight;
 } normal;
 
-static void
-add_residual(
-    const otx_plane *plane, otx_vec2 p, otx_vec2 arm, const float *color,
-    double weight, normal *out)
+/* The texels around a place, and where between them it is. */
+typedef struct cell
+{
+    const float *low, *high; /* left texel of the lower and the upper row */
+    double u, v;
+} cell;
+
+static inline cell
+cell_at(const otx_plane *plane, otx_vec2 p)
 {
     const double x = otx_plane_wrap(p.x, plane->width, plane->wrap_x);
     const double y = otx_plane_wrap(p.y, plane->height, plane->wrap_y);
     const int32_t i = (int32_t)(x + 0.5) - 1;
     const int32_t j = (int32_t)(y + 0.5) - 1;
-    const double u = x - 0.5 - i;
-    const double v = y - 0.5 - j;
-    const float *t = otx_plane_at(plane, i, j);
+    const float *low = otx_plane_at(plane, i, j);
 
-    for (int32_t k = 0; k < plane->channels; ++k)
+    return (cell){low, low + plane->row_floats, x - 0.5 - i, y - 0.5 - j};
+}
+
+/* One channel of one sample. */
+static inline void
+add_residual(
+    const cell *at, int32_t channel, otx_vec2 arm, double color, double weight,
+    normal *out)
+{
+    const double t00 = (double)at->low[channel];
+    const double t10 = (double)at->low[channel + OTX_PLANE_LANES];
+    const double t01 = (double)at->high[channel];
+    const double t11 = (double)at->high[channel + OTX_PLANE_LANES];
+    const double low = t00 + at->u * (t10 - t00);
+    const double high = t01 + at->u * (t11 - t01);
+    const double gx = (1.0 - at->v) * (t10 - t00) + at->v * (t11 - t01);
+    const double gy = high - low;
+    const double g[3] = {gx, gy, gy * arm.x - gx * arm.y};
+    const double r = color - (low + at->v * (high - low));
+
+    for (int m = 0; m < 3; ++m)
     {
-        const double t00 = (double)t[k];
-        const double t10 = (double)t[k + OTX_PLANE_LANES];
-        const double t01 = (double)t[(size_t)k + plane->row_floats];
-        const double t11 =
-            (double)t[(size_t)k + plane->row_floats + OTX_PLANE_LANES];
-        const double low = t00 + u * (t10 - t00);
-        const double high = t01 + u * (t11 - t01);
-        const double gx = (1.0 - v) * (t10 - t00) + v * (t11 - t01);
-        const double gy = high - low;
-        const double g[3] = {gx, gy, gy * arm.x - gx * arm.y};
-        const double r = (double)color[k] - (low + v * (high - low));
-
-        for (int m = 0; m < 3; ++m)
-        {
-            for (int n = 0; n < 3; ++n)
-                out->a[m][n] += weight * g[m] * g[n];
-            out->b[m] += weight * g[m] * r;
-        }
-        out->error += weight * r * r;
+        for (int n = m; n < 3; ++n)
+            out->a[m][n] += weight * g[m] * g[n];
+        out->b[m] += weight * g[m] * r;
     }
-    out->weight += weight;
+    out->error += weight * r * r;
 }
 
 /* Cramer's rule on the damped matrix; false where it is singular. */
@@ -261,7 +277,7 @@ solve3(const normal *e, double x[3])
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             m[i][j] = e->a[i][j] * (i == j ? 1.001 : 1.0);
-    /* Cofactors; m is symmetric. */
+    /* Cofactors; m is symmetric, and only its upper triangle is read. */
     const double c00 = m[1][1] * m[2][2] - m[1][2] * m[1][2];
     const double c01 = m[0][2] * m[1][2] - m[0][1] * m[2][2];
     const double c02 = m[0][1] * m[1][2] - m[0][2] * m[1][1];
@@ -301,8 +317,8 @@ evaluate(
     const otx_match *match, normal *out)
 {
     const otx_vec2 rotation = otx_vec2_polar(match->angle);
+    normal sum = {0}; /* in registers, which *out would not be */
 
-    memset(out, 0, sizeof *out);
     for (int32_t i = 0; i < picks->count; ++i)
     {
         const otx_polish_pick *pick = &picks->list[i];
@@ -310,9 +326,14 @@ evaluate(
             otx_vec2_add(otx_vec2_mul(rotation, pick->flat), match->shift);
         const otx_vec2 arm =
             otx_vec2_mul(rotation, otx_vec2_sub(pick->flat, centroid));
+        const cell at = cell_at(plane, p);
+        const double weight = (double)pick->weight;
 
-        add_residual(plane, p, arm, colors[i], (double)pick->weight, out);
+        for (int32_t k = 0; k < plane->channels; ++k)
+            add_residual(&at, k, arm, (double)colors[i][k], weight, &sum);
+        sum.weight += weight;
     }
+    *out = sum;
 }
 
 /* Centroid of the picks and their RMS distance from it. */
