@@ -337,7 +337,8 @@ texel_color(
     const int32_t n = b->raster.n, samples = n * n;
     const int32_t channels = b->source->channels;
     const int64_t home = sample_id(b, x, y, first);
-    float color[OTX_IMAGE_MAX_CHANNELS], sum[OTX_IMAGE_MAX_CHANNELS] = {0.0f};
+    float color[OTX_IMAGE_MAX_CHANNELS];
+    double sum[OTX_IMAGE_MAX_CHANNELS] = {0.0};
 
     for (int32_t s = 0; s < samples; ++s)
     {
@@ -357,7 +358,7 @@ texel_color(
             sum[c] += color[c];
     }
     for (int32_t c = 0; c < channels; ++c)
-        out[c] = sum[c] / (float)samples;
+        out[c] = (float)(sum[c] / samples);
 }
 
 /* Whether samples of a texel lie in different patches of one chart. */

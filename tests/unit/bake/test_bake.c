@@ -1,0 +1,349 @@
+/* test_bake.c -- a baked texture shows what the mapping shows: inside, in the
+ * margins, at every level, and whatever the number of threads. */
+#include "unit/bake/flat.h"
+
+#include <stdlib.h>
+
+static const otx_bake_options COLOR = {.kind = OTX_TEXEL_COLOR};
+
+/* What a flat layout must show at a texel: the block (cage face) whose cell
+ * the texel is in, and the point of the plane that its coordinates stand for,
+ * also beyond the block. */
+typedef struct expected
+{
+    int32_t face;
+    double x, y;     /* in the plane */
+    double beyond;   /* texels outside of the block, 0 in it */
+    bool on_surface; /* the plane's point is on the sheet */
+} expected;
+
+/* The block that has a texel in its cell, -1 none. */
+static expected
+expect(const otx_layout *layout, int32_t n, int32_t side, int32_t x, int32_t y)
+{
+    const double scale = (double)layout->side / side;
+    const double u = (x + 0.5) * scale, v = (y + 0.5) * scale;
+    expected best = {.face = -1, .beyond = INFINITY};
+
+    for (int32_t f = 0; f < n * n; ++f)
+    {
+        const float *low = layout->uvs + 8 * f, *high = low + 4;
+        const double x0 = (double)low[0] * layout->side;
+        const double y0 = (double)low[1] * layout->side;
+        const double size = ((double)high[0] - low[0]) * layout->side;
+        const double s = (u - x0) / size, t = (v - y0) / size;
+        const double dx = fmax(fmax(x0 - u, u - x0 - size), 0.0);
+        const double dy = fmax(fmax(y0 - v, v - y0 - size), 0.0);
+        const double beyond = hypot(dx, dy) / scale;
+
+        if (beyond < best.beyond)
+            best = (expected){f, f % n + s, f / n + t, beyond, false};
+    }
+    best.on_surface =
+        best.x >= 0.0 && best.x <= n && best.y >= 0.0 && best.y <= n;
+    return best;
+}
+
+static void
+margins_show_what_is_across_the_edge(void **state)
+{
+    enum
+    {
+        N = 3,
+        SIDE = 512
+    };
+    otx_run *run = test_run_create();
+    const otx_surface *surface = flat_surface(run, N, 3);
+    const otx_mapping *mapping = flat_mapping(run, surface, N);
+    const otx_exemplar *exemplar = flat_ramp(run, 256);
+    const otx_layout layout =
+        flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, 8);
+    const flat_levels baked =
+        flat_bake(run, mapping, exemplar, &layout, &COLOR, 0);
+    int64_t in_blocks = 0, in_margins = 0;
+
+    (void)state;
+    for (int32_t l = 0; l < 4; ++l)
+    {
+        const otx_image *image = &baked.levels[l];
+        const double gutter = fmax(4.0, 8 >> l);
+
+        for (int32_t y = 0; y < image->height; ++y)
+            for (int32_t x = 0; x < image->width; ++x)
+            {
+                const expected e = expect(&layout, N, image->width, x, y);
+                const float *p = otx_image_at(image, x, y);
+
+                /* Nearer to the block than to that of any other, in its
+                 * margin, and not beyond the sheet. */
+                if (!e.on_surface || e.beyond > fmin(gutter, 8 >> l) - 0.8)
+                    continue;
+                if (fabs(p[0] - (0.25 + 0.5 * e.x / N)) > 1e-4 ||
+                    fabs(p[1] - (0.25 + 0.5 * e.y / N)) > 1e-4)
+                    fail_msg(
+                        "level %d texel %d %d face %d: %g %g, not %g %g", l, x,
+                        y, e.face, (double)p[0], (double)p[1],
+                        0.25 + 0.5 * e.x / N, 0.25 + 0.5 * e.y / N);
+                in_blocks += e.beyond == 0.0;
+                in_margins += e.beyond > 0.0;
+            }
+    }
+    assert_true(in_blocks > 100000);
+    assert_true(in_margins > 10000);
+    test_run_destroy(run);
+}
+
+/* Bilinear lookup at a point of a face's block. */
+static void
+look(
+    const otx_layout *layout, const otx_image *image, int32_t face, double s,
+    double t, float color[3])
+{
+    const float *low = layout->uvs + 8 * face, *high = low + 4;
+    const otx_vec2 at = {
+        (low[0] + s * (high[0] - low[0])) * image->width,
+        (low[1] + t * (high[1] - low[1])) * image->height};
+
+    otx_image_sample(image, false, false, at, color);
+}
+
+static double
+jump(const float *a, const float *b)
+{
+    double most = 0.0;
+
+    for (int c = 0; c < 3; ++c)
+        most = fmax(most, fabs((double)a[c] - b[c]));
+    return most;
+}
+
+static void
+no_level_jumps_more_across_blocks_than_inside(void **state)
+{
+    enum
+    {
+        N = 4,
+        SIDE = 512
+    };
+    otx_run *run = test_run_create();
+    const otx_surface *surface = flat_surface(run, N, 2);
+    const otx_mapping *mapping = flat_mapping(run, surface, N);
+    otx_exemplar *exemplar = flat_exemplar(run, 256, 3);
+
+    (void)state;
+    for (int32_t i = 0; i < 256 * 256 * 3; ++i)
+        exemplar->linear.pixels[i] = (float)otx_random_unit(7, 0, (uint64_t)i);
+
+    const otx_layout layout =
+        flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, 8);
+    const flat_levels baked =
+        flat_bake(run, mapping, exemplar, &layout, &COLOR, 0);
+
+    for (int32_t l = 0; l < 5; ++l)
+    {
+        const otx_image *image = &baked.levels[l];
+        const double texels =
+            (layout.uvs[4] - layout.uvs[0]) * (double)image->width;
+        double across = 0.0, inside = 0.0;
+
+        for (int32_t f = 0; f < N * N; ++f)
+            for (int32_t i = 0; i <= 64; ++i)
+            {
+                const double t = i / 64.0;
+                float a[3], b[3];
+
+                /* The same point of the sheet from both blocks. */
+                if (f % N < N - 1)
+                {
+                    look(&layout, image, f, 1.0, t, a);
+                    look(&layout, image, f + 1, 0.0, t, b);
+                    across = fmax(across, jump(a, b));
+                }
+                if (f / N < N - 1)
+                {
+                    look(&layout, image, f, t, 1.0, a);
+                    look(&layout, image, f + N, t, 0.0, b);
+                    across = fmax(across, jump(a, b));
+                }
+                look(&layout, image, f, 0.5, t, a);
+                look(&layout, image, f, 0.5 + 1.0 / texels, t, b);
+                inside = fmax(inside, jump(a, b));
+            }
+        if (!(across <= inside))
+            fail_msg("level %d: %g across, %g inside", l, across, inside);
+    }
+    test_run_destroy(run);
+}
+
+static void
+a_constant_stays_constant(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_exemplar *exemplar = flat_exemplar(run, 16, 4);
+    const otx_cage_input in = mesh_octahedron(run);
+    const otx_cage cage = mesh_build(run, &in, NULL);
+    const otx_surface surface = mesh_refine(run, &cage, 2);
+    const otx_mapping *mapping = flat_mapping(run, &surface, 3.0);
+    const otx_layout layout =
+        flat_layout(run, mapping, OTX_LAYOUT_AUTO, 200, 0);
+
+    (void)state;
+    for (int32_t i = 0; i < 16 * 16; ++i)
+        memcpy(
+            exemplar->linear.pixels + 4 * i,
+            (const float[]){0.3f, 0.2f, 0.1f, 0.5f}, 4 * sizeof(float));
+
+    const flat_levels baked =
+        flat_bake(run, mapping, exemplar, &layout, &COLOR, 0);
+
+    for (int32_t l = 0; l < baked.count; ++l)
+        for (int32_t i = 0; i < baked.levels[l].width * baked.levels[l].height;
+             ++i)
+            for (int32_t c = 0; c < 4; ++c)
+                assert_true(
+                    baked.levels[l].pixels[4 * i + c] ==
+                    exemplar->linear.pixels[c]);
+    test_run_destroy(run);
+}
+
+static void
+threads_make_no_difference(void **state)
+{
+    const int32_t threads[] = {1, 2, 8};
+    float *first = NULL;
+    enum
+    {
+        SIDE = 256
+    };
+
+    (void)state;
+    for (int t = 0; t < 3; ++t)
+    {
+        otx_run *run = test_run_create_with(NULL, threads[t]);
+        const otx_surface *surface = flat_surface(run, 3, 2);
+        const otx_mapping *mapping = flat_mapping(run, surface, 3.0);
+        const otx_exemplar *exemplar = flat_ramp(run, 64);
+        const otx_layout layout =
+            flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, 4);
+        const flat_levels baked =
+            flat_bake(run, mapping, exemplar, &layout, &COLOR, 0);
+        const size_t bytes = SIDE * SIDE * 3 * sizeof(float);
+
+        if (t == 0)
+        {
+            first = malloc(bytes);
+            memcpy(first, baked.levels[0].pixels, bytes);
+        }
+        assert_memory_equal(first, baked.levels[0].pixels, bytes);
+        test_run_destroy(run);
+    }
+    free(first);
+}
+
+static void
+numbers_are_those_of_the_mapping(void **state)
+{
+    enum
+    {
+        N = 2,
+        SIDE = 128
+    };
+    otx_run *run = test_run_create();
+    const otx_surface *surface = flat_surface(run, N, 2);
+    otx_mapping *mapping = flat_mapping(run, surface, N);
+    const otx_exemplar *exemplar = flat_ramp(run, 64);
+    const otx_layout layout =
+        flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, 4);
+    const otx_level *leaf = otx_surface_leaf(surface);
+
+    (void)state;
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        mapping->face_patch[f] = f;
+    for (int32_t kind = 1; kind < OTX_TEXEL_KIND_COUNT; ++kind)
+    {
+        const otx_bake_options options = {.kind = (otx_texel_kind)kind};
+        const flat_levels baked =
+            flat_bake(run, mapping, exemplar, &layout, &options, 0);
+
+        for (int32_t y = 0; y < SIDE; ++y)
+            for (int32_t x = 0; x < SIDE; ++x)
+            {
+                const expected e = expect(&layout, N, SIDE, x, y);
+                const float *p = otx_image_at(&baked.levels[0], x, y);
+
+                assert_true(p[2] == (e.beyond == 0.0 ? 1.0f : 0.0f));
+                if (e.beyond > 0.0)
+                    continue;
+                if (kind == OTX_TEXEL_PATCH)
+                {
+                    assert_true(p[1] == (float)e.face);
+                    assert_true(
+                        p[0] == floorf(p[0]) &&
+                        leaf->face_cage[(int32_t)p[0]] == e.face);
+                }
+                if (kind == OTX_TEXEL_UV)
+                    assert_true(
+                        fabs(p[0] - (0.25 + 0.5 * e.x / N)) < 1e-5 &&
+                        fabs(p[1] - (0.25 + 0.5 * e.y / N)) < 1e-5);
+                if (kind == OTX_TEXEL_STRETCH)
+                    assert_true(
+                        fabsf(p[0] - 1.0f) < 1e-4f &&
+                        fabsf(p[1] - 1.0f) < 1e-4f);
+            }
+    }
+    test_run_destroy(run);
+}
+
+static bool
+stop_soon(void *user, const char *stage, double fraction)
+{
+    int32_t *left = user;
+
+    (void)stage;
+    (void)fraction;
+    return (*left)-- > 0;
+}
+
+static void
+it_can_be_stopped_anywhere(void **state)
+{
+    (void)state;
+    for (int32_t calls = 0; calls < 12; ++calls)
+    {
+        otx_run *run = test_run_create();
+        const otx_surface *surface = flat_surface(run, 2, 1);
+        const otx_mapping *mapping = flat_mapping(run, surface, 2.0);
+        const otx_exemplar *exemplar = flat_ramp(run, 16);
+        const otx_layout layout =
+            flat_layout(run, mapping, OTX_LAYOUT_ATLAS, 128, 4);
+        flat_levels out = {otx_pyramid_count(128, 128), {{0}}};
+        const otx_bake_sink sink = {flat_put, &out};
+        int32_t left = calls;
+        otx_bake bake;
+
+        for (int32_t l = 0; l < out.count; ++l)
+            otx_image_create(
+                run, run->arena, 128 >> l, 128 >> l, 3, &out.levels[l]);
+        otx_bake_create(run, mapping, exemplar, &layout, &COLOR, &bake);
+        run->progress = stop_soon;
+        run->progress_user = &left;
+        assert_int_equal(
+            otx_bake_tile(run, &bake, 0, &sink), OSDTEX_ERROR_CANCELLED);
+        test_run_destroy(run);
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(margins_show_what_is_across_the_edge),
+        cmocka_unit_test(no_level_jumps_more_across_blocks_than_inside),
+        cmocka_unit_test(a_constant_stays_constant),
+        cmocka_unit_test(threads_make_no_difference),
+        cmocka_unit_test(numbers_are_those_of_the_mapping),
+        cmocka_unit_test(it_can_be_stopped_anywhere),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
