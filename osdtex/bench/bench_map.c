@@ -126,6 +126,18 @@ time_job(
     return true;
 }
 
+/* The user's cage as the program would map it without --level and --scale. */
+static bench_map_job
+own_job(const bench_options *options)
+{
+    return (bench_map_job){
+        .options = options,
+        .cage = read_cage,
+        .level = -1,
+        .leaf = LEAF_TEXELS,
+        .exemplar_size = options->exemplar ? 0 : EXEMPLAR};
+}
+
 /* -- rows ---------------------------------------------------------------- */
 
 static bool
@@ -144,12 +156,7 @@ time_map(const bench_options *options, bench_report *report)
         .level = 3,
         .leaf = LEAF_TEXELS,
         .exemplar_size = EXEMPLAR};
-    const bench_map_job own = {
-        .options = options,
-        .cage = read_cage,
-        .level = -1,
-        .leaf = LEAF_TEXELS,
-        .exemplar_size = options->exemplar ? 0 : EXEMPLAR};
+    const bench_map_job own = own_job(options);
 
     bench_report_begin(
         report,
@@ -226,9 +233,13 @@ verify_map(const bench_options *options)
         .level = 2,
         .leaf = LEAF_TEXELS,
         .exemplar_size = 128};
-    const bool round = verify_job("sphere", &sphere);
+    const bench_map_job own = own_job(options);
+    bool right = verify_job("sphere", &sphere);
 
-    return verify_job("octopus", &octopus) && round;
+    right &= verify_job("octopus", &octopus);
+    if (options->cage)
+        right &= verify_job("own", &own);
+    return right;
 }
 
 const bench_row bench_row_map = {
