@@ -9,6 +9,7 @@
 #include "image/analysis.h"
 #include "image/exemplar.h"
 #include "mapping/mapping.h"
+#include "method/guide.h"
 #include "method/option.h"
 #include "surface/surface.h"
 
@@ -49,6 +50,7 @@ typedef struct otx_map_request
     double first_angle;      /* radians */
     /* What the exemplar is taken for; NULL: it is analysed where needed. */
     const otx_analysis *analysis;
+    const otx_guide *guide; /* that patches follow; NULL: the method's choice */
 } otx_map_request;
 
 typedef struct otx_method

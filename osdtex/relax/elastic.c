@@ -462,6 +462,30 @@ run_levels(elastic *e, const otx_pyramid *pyramid, otx_elastic_stats *stats)
     return OSDTEX_OK;
 }
 
+/* Makes the sheets' present shapes the ones that rigidity holds. */
+static otx_status
+keep_shape(elastic *e)
+{
+    otx_sheet *s = &e->sheet;
+    otx_arena *arena = e->run->scratch;
+    float *points = OTX_ZNEW(arena, float, 3 * (int64_t)s->count);
+    int32_t *verts = OTX_NEW(arena, int32_t, s->count);
+    const otx_rigid_mesh mesh = {
+        s->face_count, s->count, s->first, s->corners, verts, points, 1.0};
+
+    if (!points || !verts)
+        return otx_fail_memory(e->run, "relax");
+    for (int32_t v = 0; v < s->count; ++v)
+    {
+        verts[v] = v;
+        points[3 * (size_t)v] = (float)s->at[v].x;
+        points[3 * (size_t)v + 1] = (float)s->at[v].y;
+    }
+    if (otx_rigid_build(arena, &mesh, &s->rigid) != OSDTEX_OK)
+        return otx_fail_memory(e->run, "relax");
+    return OSDTEX_OK;
+}
+
 static otx_status
 allocate(elastic *e)
 {
@@ -501,6 +525,8 @@ otx_elastic_run(
     *out = (otx_elastic_stats){0};
     OTX_TRY(otx_sheet_build(
         run, surface, options->texels, face_patch, uvs, &e.sheet));
+    if (options->keep_shape)
+        OTX_TRY(keep_shape(&e));
     OTX_TRY(otx_pyramid_build(run, run->scratch, &exemplar->match, &pyramid));
     OTX_TRY(allocate(&e));
     e.image = &pyramid.levels[0];

@@ -162,12 +162,18 @@ place_freely(
     otx_match *out)
 {
     const otx_image *image = &m->exemplar->match;
+    double guided[OTX_GUIDE_ANGLES];
+    const int32_t guided_count =
+        m->request->guide ? otx_guide_angles(m, &m->nodes[index], guided) : 0;
 
     for (int32_t turn = 0; turn < 64; ++turn)
     {
         const uint64_t element = (uint64_t)index * 64u + (uint64_t)turn;
         const double angle =
-            2.0 * OTX_PI * otx_random_unit(m->run->seed, STAGE_ANGLE, element);
+            guided_count > 0
+                ? guided[turn % guided_count]
+                : 2.0 * OTX_PI *
+                      otx_random_unit(m->run->seed, STAGE_ANGLE, element);
         const otx_vec2 r = otx_vec2_polar(angle);
         otx_vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
         double x, y, dx, dy;
@@ -205,17 +211,40 @@ shift_inside(bool wraps, double size, double low, double high, double wanted)
                          : 0.5 * (least + most);
 }
 
-/* The user's first patch: its middle at a given place, turned as asked, or as
- * near to there as it lies inside. False when it does not fit so turned. */
+/* Direction in the chart of the first edge of the user's face, from its corner
+ * 0 to its corner 1; 0 when the chart does not reach both. */
+static double
+first_heading(const otx_mapper *m, const otx_chart *chart)
+{
+    const otx_level *cage = &m->surface->levels[0];
+    const int32_t *ends =
+        cage->face_verts + cage->face_first[m->request->first_face];
+    int32_t found[2] = {-1, -1};
+    otx_vec2 edge;
+
+    for (int32_t v = chart->vert_count - 1; v >= 0; --v)
+        for (int k = 0; k < 2; ++k)
+            if (chart->verts[v] == ends[k])
+                found[k] = v;
+    if (found[0] < 0 || found[1] < 0)
+        return 0.0;
+    edge = otx_vec2_sub(chart->flat[found[1]], chart->flat[found[0]]);
+    return atan2(edge.y, edge.x);
+}
+
+/* The user's first patch: its middle at a given place, its face's first edge
+ * turned as asked, or as near to there as it lies inside. False when it does
+ * not fit so turned. */
 static bool
 place_first(
-    const otx_mapper *m, otx_vec2 middle, const otx_vec2 *points, int32_t count,
-    otx_match *out)
+    const otx_mapper *m, const otx_chart *chart, const otx_vec2 *points,
+    int32_t count, otx_match *out)
 {
     const otx_map_request *r = m->request;
     const otx_exemplar *e = m->exemplar;
     const double w = e->match.width, h = e->match.height;
-    const otx_vec2 turn = otx_vec2_polar(r->first_angle);
+    const double angle = r->first_angle - first_heading(m, chart);
+    const otx_vec2 turn = otx_vec2_polar(angle), middle = core_middle(chart);
     const otx_vec2 target = {r->first_position.x * w, r->first_position.y * h};
     otx_vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
     otx_vec2 shift = otx_vec2_sub(target, otx_vec2_mul(turn, middle));
@@ -229,7 +258,7 @@ place_first(
     }
     shift.x = shift_inside(e->wrap_x, w, low.x, high.x, shift.x);
     shift.y = shift_inside(e->wrap_y, h, low.y, high.y, shift.y);
-    *out = (otx_match){r->first_angle, shift, 0.0};
+    *out = (otx_match){angle, shift, 0.0};
     return (e->wrap_x || high.x - low.x <= w - 1.0) &&
            (e->wrap_y || high.y - low.y <= h - 1.0);
 }
@@ -251,6 +280,8 @@ search(
 
     for (int32_t k = 0; k < s->angles; ++k)
         angles[k] = start + 2.0 * OTX_PI * k / s->angles;
+    if (m->request->guide)
+        query.angle_count = otx_guide_angles(m, &m->nodes[index], angles);
     query.coarse_levels = s->coarse;
     query.coarse_keep = s->keep;
     query.gauss_newton = s->mode == OTX_HIERARCHICAL_BEST;
@@ -346,7 +377,7 @@ otx_fit_node(otx_mapper *m, int32_t index, bool *accepted)
         return otx_fail_memory(m->run, "map");
     OTX_TRY(make_mask(m, node, &mask));
     if (is_users_first(m, node))
-        count = place_first(m, middle, points, point_count, &best[0]);
+        count = place_first(m, &node->chart, points, point_count, &best[0]);
     else if (mask.triangle_count == 0)
         count = place_freely(m, index, points, point_count, &best[0]);
     else

@@ -186,6 +186,8 @@ allocate(otx_mapper *m)
         return otx_fail_memory(m->run, "map");
     for (int32_t f = 0; f < leaf->face_count; ++f)
         m->leaf_node[f] = m->face_patch[f] = -1;
+    if (m->given)
+        otx_given_take(m);
     for (int32_t t = 0; t < threads; ++t)
         OTX_TRY(otx_chart_space_create(
             m->run, m->run->arena, m->surface, &m->spaces[t]));
@@ -209,10 +211,11 @@ prepare(otx_mapper *m)
         m->settings.coarse, &m->matcher);
 }
 
-static otx_status
-map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    const otx_map_request *request, const void *settings, otx_mapping *out,
-    otx_map_stats *stats)
+otx_status
+otx_hierarchical_fill(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_map_request *request, const otx_hierarchical_settings *settings,
+    const otx_hierarchical_given *given, otx_mapping *out, otx_map_stats *stats)
 {
     otx_mapper *m = OTX_ZNEW(run->arena, otx_mapper, 1);
 
@@ -222,7 +225,8 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     m->surface = surface;
     m->exemplar = exemplar;
     m->request = request;
-    m->settings = *(const otx_hierarchical_settings *)settings;
+    m->given = given;
+    m->settings = *settings;
     m->stats = stats;
     m->texels = exemplar->match.width / request->scale;
     otx_hierarchical_resolve(&m->settings, exemplar);
@@ -237,6 +241,15 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     if (m->patch_count > 0)
         stats->fit_error_mean /= m->patch_count;
     return otx_assemble(m, out);
+}
+
+static otx_status
+map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_map_request *request, const void *settings, otx_mapping *out,
+    otx_map_stats *stats)
+{
+    return otx_hierarchical_fill(
+        run, surface, exemplar, request, settings, NULL, out, stats);
 }
 
 const otx_method otx_method_hierarchical = {

@@ -84,6 +84,23 @@ typedef struct otx_node
     otx_match placed; /* where the chart lies in the exemplar */
 } otx_node;
 
+/* What is textured before a run begins. */
+typedef struct otx_hierarchical_given
+{
+    const int32_t *face_patch; /* [leaf face_count], -1 to be covered */
+    int32_t patch_count;
+    const otx_vec2 *uvs; /* [leaf corner_count] texels; corners that share
+                          * vertex and patch are equal */
+} otx_hierarchical_given;
+
+/* Covers what is not given and joins it to what is. `settings` as the method
+ * takes them. */
+otx_status otx_hierarchical_fill(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_map_request *request, const otx_hierarchical_settings *settings,
+    const otx_hierarchical_given *given, otx_mapping *out,
+    otx_map_stats *stats);
+
 /* One run. Arrays over leaf faces and corners. */
 typedef struct otx_mapper
 {
@@ -91,7 +108,8 @@ typedef struct otx_mapper
     const otx_surface *surface;
     const otx_exemplar *exemplar;
     const otx_map_request *request;
-    otx_hierarchical_settings settings; /* resolved */
+    const otx_hierarchical_given *given; /* NULL none */
+    otx_hierarchical_settings settings;  /* resolved */
     otx_map_stats *stats;
     double texels; /* per scene unit */
     otx_dual leaves;
@@ -140,6 +158,21 @@ otx_status otx_nodes_split(otx_mapper *m, int32_t node);
  *   accepted  false when the error is above tau and the node can be split, or
  *             when it fits nowhere */
 otx_status otx_fit_node(otx_mapper *m, int32_t node, bool *accepted);
+
+/* given.c: takes over what is textured already. */
+void otx_given_take(otx_mapper *m);
+/* Clusters of what is not. */
+otx_status otx_given_clusters(otx_mapper *m, otx_cluster_list *out);
+/* The offers of the given patches, the first of all. */
+otx_status otx_given_offers(otx_mapper *m);
+/* Orientations at which a node follows the request's guide, into
+ * angles[OTX_GUIDE_ANGLES]; how many there are. */
+int32_t
+otx_guide_angles(const otx_mapper *m, const otx_node *node, double *angles);
+enum
+{
+    OTX_GUIDE_ANGLES = 12
+};
 
 /* band.c: cuts a mask triangle where it leaves the band.
  *

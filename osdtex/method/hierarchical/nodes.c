@@ -151,7 +151,9 @@ otx_nodes_start(otx_mapper *m)
     otx_cluster_list list;
     const otx_dual *dual;
 
-    if (m->settings.clusters == OTX_HIERARCHICAL_GROWN)
+    if (m->given)
+        OTX_TRY(otx_given_clusters(m, &list));
+    else if (m->settings.clusters == OTX_HIERARCHICAL_GROWN)
         OTX_TRY(start_grown(m, &list));
     else
     {

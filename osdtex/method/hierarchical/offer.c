@@ -62,11 +62,12 @@ compare_slots(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The offer of one patch, in its chart's arena. */
+/* The offer of one patch that was fitted, in its chart's arena. */
 static otx_status
-make_offer(void *context, int64_t patch, otx_worker *worker)
+make_offer(void *context, int64_t index, otx_worker *worker)
 {
     otx_mapper *m = context;
+    const int64_t patch = index + (m->given ? m->given->patch_count : 0);
     const otx_node *node = &m->nodes[m->patch_node[patch]];
     const otx_chart *chart = &node->chart;
     slot *slots = OTX_NEW(worker->scratch, slot, chart->face_count);
@@ -105,10 +106,15 @@ make_offer(void *context, int64_t patch, otx_worker *worker)
 otx_status
 otx_offers_make(otx_mapper *m)
 {
+    const int32_t given = m->given ? m->given->patch_count : 0;
+
     m->offers = OTX_NEW(m->run->arena, otx_offer, m->patch_count);
     if (!m->offers ||
-        otx_pool_for(m->run->pool, m->patch_count, make_offer, m) != OSDTEX_OK)
+        otx_pool_for(m->run->pool, m->patch_count - given, make_offer, m) !=
+            OSDTEX_OK)
         return otx_fail_memory(m->run, "cut");
+    if (given > 0)
+        OTX_TRY(otx_given_offers(m));
     return OSDTEX_OK;
 }
 

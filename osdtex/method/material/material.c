@@ -142,42 +142,22 @@ lay_uvs(otx_material *m)
 {
     const otx_level *leaf = otx_surface_leaf(m->surface);
     const otx_vec2 *g = m->analysis.generators;
+    uint8_t *open = OTX_ZNEW(m->run->scratch, uint8_t, leaf->face_count);
     otx_vec2 *cells;
 
     m->uvs = OTX_NEW(m->run->arena, otx_vec2, leaf->corner_count);
-    m->face_patch = OTX_ZNEW(m->run->arena, int32_t, leaf->face_count);
-    if (!m->uvs || !m->face_patch)
+    m->face_patch = OTX_NEW(m->run->arena, int32_t, leaf->face_count);
+    if (!m->uvs || !m->face_patch || !open)
         return otx_fail_memory(m->run, "map");
     OTX_TRY(refine_cells(m, &cells));
+    OTX_TRY(otx_refill_choose(m, cells, open));
+    OTX_TRY(otx_label_windows(m, open, cells));
+    OTX_TRY(otx_label_patches(m, open, cells, m->face_patch, &m->patch_count));
     for (int32_t i = 0; i < leaf->corner_count; ++i)
         m->uvs[i] = otx_vec2_add(
             m->analysis.centre, otx_vec2_add(
                                     otx_vec2_scale(cells[i].x, g[0]),
                                     otx_vec2_scale(cells[i].y, g[1])));
-    m->patch_count = 1;
-    return OSDTEX_OK;
-}
-
-static otx_status
-write_mapping(otx_material *m, otx_mapping *out)
-{
-    const otx_level *leaf = otx_surface_leaf(m->surface);
-    const otx_image *image = &m->exemplar->match;
-
-    *out = (otx_mapping){
-        .surface = m->surface,
-        .scale = m->request->scale,
-        .uvs = OTX_NEW(m->run->arena, float, 2 * (int64_t)leaf->corner_count),
-        .face_patch = m->face_patch,
-        .patch_count = m->patch_count,
-    };
-    if (!out->uvs)
-        return otx_fail_memory(m->run, "map");
-    for (int32_t i = 0; i < leaf->corner_count; ++i)
-    {
-        out->uvs[2 * (size_t)i] = (float)(m->uvs[i].x / image->width);
-        out->uvs[2 * (size_t)i + 1] = (float)(m->uvs[i].y / image->height);
-    }
     return OSDTEX_OK;
 }
 
@@ -202,7 +182,7 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     otx_map_stats_stage(stats, "phase");
     OTX_TRY(solve_phases(&m));
     OTX_TRY(lay_uvs(&m));
-    return write_mapping(&m, out);
+    return otx_refill_run(&m, out);
 }
 
 const otx_method otx_method_material = {

@@ -14,6 +14,7 @@
 #include "field/scale.h"
 #include "field/singularity.h"
 #include "image/analysis.h"
+#include "method/hierarchical/hierarchical.h"
 #include "method/material/phase.h"
 #include "method/method.h"
 
@@ -25,12 +26,13 @@ typedef struct otx_material_settings
     double clear;
     int32_t fill;
     double turn;
+    double stretch;
 } otx_material_settings;
 
 extern const otx_option otx_material_options[];
 enum
 {
-    OTX_MATERIAL_OPTION_COUNT = 5
+    OTX_MATERIAL_OPTION_COUNT = 6
 };
 
 typedef struct otx_material
@@ -55,6 +57,26 @@ typedef struct otx_material
     int32_t *face_patch; /* [leaf face_count] */
     otx_vec2 *uvs;       /* [leaf corner_count] texels */
     int32_t patch_count;
+    double clean_share;  /* of the area, farther than a cell from a defect */
+    double filled_share; /* of the area, covered by patches */
 } otx_material;
+
+/* label.c: takes whole cells off the faces that are not `open` ([leaf
+ * face_count]), so that they lie inside an exemplar that does not tile.
+ * SUPPORT when no cell does. */
+otx_status
+otx_label_windows(const otx_material *m, const uint8_t *open, otx_vec2 *cells);
+
+/* Numbers patches of faces that are not open: within one, a vertex has one
+ * UV. */
+otx_status otx_label_patches(
+    const otx_material *m, const uint8_t *open, const otx_vec2 *cells,
+    int32_t *face_patch, int32_t *patch_count);
+
+/* refill.c: which leaf faces the periodic texture does not suit, 1 each. */
+otx_status
+otx_refill_choose(otx_material *m, const otx_vec2 *cells, uint8_t *open);
+/* Covers them by patches that follow the field. */
+otx_status otx_refill_run(otx_material *m, otx_mapping *out);
 
 #endif

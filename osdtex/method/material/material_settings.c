@@ -17,6 +17,9 @@ const otx_option otx_material_options[] = {
      "texture, in cells"},
     {"fill", OTX_OPTION_SWITCH, FIELD(fill), 0, 0, 1, NULL,
      "Replace the texture around dislocations by patches that continue it"},
+    {"stretch", OTX_OPTION_REAL, FIELD(stretch), 1, 16, 2.5, NULL,
+     "Factor by which the periodic texture may be squeezed or stretched before "
+     "patches replace it"},
     {"turn", OTX_OPTION_REAL, FIELD(turn), -360, 360, 0, NULL,
      "Angle from the field's direction to the texture's, in degrees"},
 };

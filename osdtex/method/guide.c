@@ -1,0 +1,51 @@
+/* guide.c -- a direction for every leaf face. */
+#include "method/guide.h"
+
+enum
+{
+    FACES_MAX = 24000 /* of the level that is solved on */
+};
+
+otx_status
+otx_guide_from_field(
+    otx_run *run, const otx_direction *field, double angle, otx_guide *out)
+{
+    const otx_surface *surface = field->connection->surface;
+    const int32_t last = surface->level_count - 1;
+    const otx_level *leaf = &surface->levels[last];
+    otx_vec3 *directions = OTX_NEW(run->arena, otx_vec3, leaf->face_count);
+
+    if (!directions)
+        return otx_fail_memory(run, "field");
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        int32_t face = f;
+
+        for (int32_t l = last; l > field->connection->level_index; --l)
+            face = surface->levels[l].face_parent[face];
+        directions[f] = otx_direction_vector(field, face);
+    }
+    *out = (otx_guide){directions, field->symmetry, angle};
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_guide_make(
+    otx_run *run, const otx_surface *surface, const otx_analysis *analysis,
+    const otx_direction_request *request, otx_guide *out)
+{
+    otx_direction_request asked =
+        request ? *request : (otx_direction_request){0};
+    otx_connection *connection = OTX_NEW(run->arena, otx_connection, 1);
+    int32_t level = surface->level_count - 1;
+    otx_direction field;
+
+    if (!connection)
+        return otx_fail_memory(run, "field");
+    while (level > 0 && surface->levels[level].face_count > FACES_MAX)
+        --level;
+    asked.symmetry = analysis->symmetry > 0 ? analysis->symmetry : 1;
+    OTX_TRY(otx_connection_build(run, surface, level, connection));
+    OTX_TRY(otx_direction_solve(run, connection, &asked, &field));
+    return otx_guide_from_field(run, &field, analysis->angle, out);
+}

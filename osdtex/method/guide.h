@@ -1,0 +1,29 @@
+/* guide.h -- a direction for every leaf face, and how the exemplar is to lie.
+ *
+ * Patches of an exemplar that has a direction are turned so that it follows a
+ * field on the surface. See docs/notes/field.md. */
+#ifndef OTX_METHOD_GUIDE_H
+#define OTX_METHOD_GUIDE_H
+
+#include "field/direction.h"
+#include "image/analysis.h"
+
+typedef struct otx_guide
+{
+    const otx_vec3 *directions; /* [leaf face_count] unit, along the surface */
+    int32_t symmetry;           /* turns by 360 / symmetry degrees are equal */
+    double angle;               /* of the exemplar's direction, radians */
+} otx_guide;
+
+/* Solves for the smoothest field of the exemplar's symmetry, or the one that
+ * `request` asks for (NULL: the smoothest; its symmetry is not read). Works on
+ * a level of moderate size; leaves inherit. In run->arena. */
+otx_status otx_guide_make(
+    otx_run *run, const otx_surface *surface, const otx_analysis *analysis,
+    const otx_direction_request *request, otx_guide *out);
+
+/* Hands the field of a coarser level to the leaves. */
+otx_status otx_guide_from_field(
+    otx_run *run, const otx_direction *field, double angle, otx_guide *out);
+
+#endif

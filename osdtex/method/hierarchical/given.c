@@ -1,0 +1,163 @@
+/* given.c -- surfaces that are textured in part already.
+ *
+ * Another method has laid its texture where it can; the rest is covered by
+ * patches that continue it. What is given takes part in the cut and in the
+ * relaxation like any patch, but offers nothing beyond its own faces. */
+#include "method/hierarchical/hierarchical.h"
+
+#include <string.h>
+
+void
+otx_given_take(otx_mapper *m)
+{
+    const otx_level *leaf = m->leaves.level;
+    const otx_hierarchical_given *given = m->given;
+
+    m->patch_count = given->patch_count;
+    for (int32_t p = 0; p < given->patch_count; ++p)
+        m->patch_node[p] = -1;
+    memcpy(m->uvs, given->uvs, (size_t)leaf->corner_count * sizeof *m->uvs);
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        m->face_patch[f] = leaf->face_hole[f] ? -1 : given->face_patch[f];
+        if (m->face_patch[f] >= 0)
+            m->done_area += m->leaves.areas[f];
+    }
+}
+
+otx_status
+otx_given_clusters(otx_mapper *m, otx_cluster_list *out)
+{
+    const double diameter = m->settings.patch / m->texels;
+    const otx_level *leaf = m->leaves.level;
+    int32_t *faces = OTX_NEW(m->run->arena, int32_t, leaf->face_count);
+    otx_cluster open = {m->leaves.level_index, 0, faces, 0.0};
+
+    if (!faces)
+        return otx_fail_memory(m->run, "map");
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        if (m->face_patch[f] < 0 && !leaf->face_hole[f])
+        {
+            faces[open.face_count++] = f;
+            open.area += m->leaves.areas[f];
+        }
+    if (open.face_count == 0)
+    {
+        *out = (otx_cluster_list){0};
+        return OSDTEX_OK;
+    }
+    return otx_cluster_grow(
+        m->run, &m->leaves, &open, diameter * diameter, 1, 1.0, out);
+}
+
+/* The faces of one given patch, at their UVs. */
+static otx_status
+offer_patch(otx_mapper *m, int32_t patch, int32_t count)
+{
+    const otx_level *leaf = m->leaves.level;
+    int32_t *faces = OTX_NEW(m->run->arena, int32_t, count);
+    int32_t *first = OTX_NEW(m->run->arena, int32_t, count + 1);
+    int32_t corners = 0, n = 0;
+    otx_vec2 *uvs;
+
+    if (!faces || !first)
+        return otx_fail_memory(m->run, "cut");
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        if (m->given->face_patch[f] == patch && !leaf->face_hole[f])
+        {
+            faces[n] = f;
+            first[n++] = corners;
+            corners += otx_level_face_size(leaf, f);
+        }
+    first[n] = corners;
+    uvs = OTX_NEW(m->run->arena, otx_vec2, corners);
+    if (!uvs)
+        return otx_fail_memory(m->run, "cut");
+    for (int32_t i = 0; i < n; ++i)
+        memcpy(
+            uvs + first[i], m->given->uvs + leaf->face_first[faces[i]],
+            (size_t)(first[i + 1] - first[i]) * sizeof *uvs);
+    m->offers[patch] = (otx_offer){n, faces, uvs, first, NULL};
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_given_offers(otx_mapper *m)
+{
+    const otx_level *leaf = m->leaves.level;
+    int32_t *counts =
+        OTX_ZNEW(m->run->scratch, int32_t, m->given->patch_count + 1);
+
+    if (!counts)
+        return otx_fail_memory(m->run, "cut");
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        if (m->given->face_patch[f] >= 0 && !leaf->face_hole[f])
+            ++counts[m->given->face_patch[f]];
+    for (int32_t p = 0; p < m->given->patch_count; ++p)
+        OTX_TRY(offer_patch(m, p, counts[p]));
+    return OSDTEX_OK;
+}
+
+/* -- guided orientations ------------------------------------------------- */
+
+/* A vector of the surface on a chart face, carried into the plane by the
+ * face's first fan triangle. */
+static otx_vec2
+carry(const otx_mapper *m, const otx_chart *chart, int32_t i, otx_vec3 v)
+{
+    const int32_t *c = chart->corners + chart->first[i];
+    otx_vec3 p[3];
+    otx_vec2 q[3];
+    otx_vec3 a, b;
+    double aa, ab, bb, va, vb, det;
+
+    for (int k = 0; k < 3; ++k)
+    {
+        p[k] = otx_vec3_load(m->surface->points, chart->verts[c[k]]);
+        q[k] = chart->flat[c[k]];
+    }
+    a = otx_vec3_sub(p[1], p[0]);
+    b = otx_vec3_sub(p[2], p[0]);
+    aa = otx_vec3_dot(a, a);
+    ab = otx_vec3_dot(a, b);
+    bb = otx_vec3_dot(b, b);
+    va = otx_vec3_dot(v, a);
+    vb = otx_vec3_dot(v, b);
+    det = aa * bb - ab * ab;
+    if (!(det > 0.0))
+        return (otx_vec2){0, 0};
+    return otx_vec2_add(
+        otx_vec2_scale((va * bb - vb * ab) / det, otx_vec2_sub(q[1], q[0])),
+        otx_vec2_scale((vb * aa - va * ab) / det, otx_vec2_sub(q[2], q[0])));
+}
+
+int32_t
+otx_guide_angles(const otx_mapper *m, const otx_node *node, double *angles)
+{
+    static const double spread[3] = {0.0, -5.0, 5.0};
+    const otx_guide *guide = m->request->guide;
+    const otx_chart *chart = &node->chart;
+    otx_vec2 sum = {0, 0};
+    int32_t count = 0;
+    double field;
+
+    /* The mean of directions of symmetry s is that of their s-th powers. */
+    for (int32_t i = 0; i < chart->core_count; ++i)
+    {
+        const int32_t face = chart->faces[i];
+        const otx_vec2 d = carry(m, chart, i, guide->directions[face]);
+
+        if (otx_vec2_dot(d, d) > 0.0)
+            sum = otx_vec2_add(
+                sum, otx_vec2_scale(
+                         m->leaves.areas[face],
+                         otx_vec2_polar(guide->symmetry * atan2(d.y, d.x))));
+    }
+    field = atan2(sum.y, sum.x) / guide->symmetry;
+    for (int32_t k = 0; k < guide->symmetry; ++k)
+        for (int32_t i = 0; i < 3; ++i)
+            angles[count++] = guide->angle - field +
+                              2.0 * OTX_PI * k / guide->symmetry +
+                              spread[i] * OTX_PI / 180.0;
+    return count;
+}

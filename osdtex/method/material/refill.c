@@ -1,0 +1,119 @@
+/* refill.c -- patches where periodic coordinates fail.
+ *
+ * Around a dislocation, and wherever the coordinates are squeezed, patches of
+ * the exemplar that follow the same field continue what is around them. */
+#include "method/material/material.h"
+
+#include "flatten/stretch.h"
+
+/* -- which faces --------------------------------------------------------- */
+
+/* Whether every fan triangle of a leaf face keeps its sense and its size
+ * within `limit`. */
+static bool
+is_sound(const otx_material *m, const otx_vec2 *cells, int32_t face)
+{
+    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_vec2 *g = m->analysis.generators;
+    const double limit = m->settings->stretch;
+    const int32_t first = leaf->face_first[face];
+
+    for (int32_t k = 1; k + 1 < otx_level_face_size(leaf, face); ++k)
+    {
+        const int32_t at[3] = {first, first + k, first + k + 1};
+        otx_vec3 p[3];
+        otx_vec2 q[3];
+        double s[2];
+
+        for (int j = 0; j < 3; ++j)
+        {
+            p[j] = otx_vec3_scale(
+                m->texels,
+                otx_vec3_load(m->surface->points, leaf->face_verts[at[j]]));
+            q[j] = otx_vec2_add(
+                otx_vec2_scale(cells[at[j]].x, g[0]),
+                otx_vec2_scale(cells[at[j]].y, g[1]));
+        }
+        otx_stretch_singular(p, q, s);
+        if (!(s[1] > 1.0 / limit) || !(s[0] < limit))
+            return false;
+    }
+    return true;
+}
+
+static double
+face_area(const otx_material *m, int32_t leaf_face)
+{
+    otx_vec3 unused;
+
+    return 0.5 *
+           otx_vec3_length(otx_dual_leaf_area(m->surface, leaf_face, &unused));
+}
+
+/* The face of the solved level above a leaf face. */
+static int32_t
+solved_face(const otx_material *m, int32_t leaf_face)
+{
+    int32_t face = leaf_face;
+
+    for (int32_t l = m->surface->level_count - 1; l > m->level; --l)
+        face = m->surface->levels[l].face_parent[face];
+    return face;
+}
+
+otx_status
+otx_refill_choose(otx_material *m, const otx_vec2 *cells, uint8_t *open)
+{
+    const otx_level *leaf = otx_surface_leaf(m->surface);
+    double clean = 0.0, filled = 0.0, all = 0.0;
+
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        const double distance = m->distance[solved_face(m, f)];
+        const double area = leaf->face_hole[f] ? 0.0 : face_area(m, f);
+
+        open[f] = m->settings->fill && !leaf->face_hole[f] &&
+                  (distance <= m->settings->clear * m->cell ||
+                   !is_sound(m, cells, f));
+        all += area;
+        clean += distance > m->cell ? area : 0.0;
+        filled += open[f] ? area : 0.0;
+    }
+    m->clean_share = clean / all;
+    m->filled_share = filled / all;
+    otx_note(
+        m->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
+        "%d of %d faces hold a dislocation; %.1f %% of the area is farther "
+        "than a cell from any, %.1f %% is covered by patches",
+        (int)m->phase.defect_count, (int)m->connection.level->face_count,
+        100.0 * m->clean_share, 100.0 * m->filled_share);
+    return OSDTEX_OK;
+}
+
+/* -- patches ------------------------------------------------------------- */
+
+otx_status
+otx_refill_run(otx_material *m, otx_mapping *out)
+{
+    otx_hierarchical_settings settings;
+    otx_map_request request = *m->request;
+    otx_guide guide;
+    const otx_hierarchical_given given = {
+        m->face_patch, m->patch_count, m->uvs};
+
+    OTX_TRY(otx_guide_from_field(
+        m->run, &m->field,
+        m->analysis.angle - m->settings->turn * OTX_PI / 180.0, &guide));
+    request.guide = &guide;
+    request.first_face = -1;
+    otx_option_defaults(
+        otx_hierarchical_options, OTX_HIERARCHICAL_OPTION_COUNT, &settings);
+    if (m->filled_share == 0.0)
+    {
+        settings.cut = OTX_HIERARCHICAL_OFF;
+        settings.relax = OTX_HIERARCHICAL_RELAX_OFF;
+    }
+    return otx_hierarchical_fill(
+        m->run, m->surface, m->exemplar, &request, &settings, &given, out,
+        m->stats);
+}
