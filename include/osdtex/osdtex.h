@@ -397,6 +397,11 @@ extern "C"
         int32_t channels, const float *pixels, osdtex_image **out);
     OSDTEX_API const osdtex_image_info *
     osdtex_image_describe(const osdtex_image *image);
+    /* Reads EXR, PNG, TIFF or JPEG, told by content: values as they are in the
+     * file (integers over their maximum), no colour converted. FORMAT, SUPPORT,
+     * LIMIT, NUMERIC (a pixel that is not finite), IO, MEMORY. */
+    OSDTEX_API osdtex_status osdtex_image_read(
+        osdtex_context *context, const char *path, osdtex_image **out);
     /* Writes scene-linear pixels: NAME.exr as they are, NAME.png for the eye,
      * through the sRGB space of the colour configuration. ARGUMENT (another
      * extension), IO, COLOUR, MEMORY. */

@@ -3,6 +3,7 @@
 #include "api/call.h"
 #include "api/handle.h"
 #include "file/exr.h"
+#include "file/picture.h"
 #include "file/png_file.h"
 #include "image/embedding.h"
 
@@ -61,6 +62,46 @@ osdtex_image_create(
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "image", &call));
     return otx_call_end(&call, create(&call.run, &info, out));
+}
+
+/* Files differ in whether colour is multiplied by alpha; images are not. */
+static void
+associate(const otx_picture *picture)
+{
+    const otx_image *image = &picture->image;
+    const size_t count = (size_t)image->width * (size_t)image->height;
+
+    if (!picture->has_alpha || picture->alpha_is_premultiplied)
+        return;
+    for (float *p = image->pixels; p < image->pixels + 4 * count; p += 4)
+        for (int32_t k = 0; k < 3; ++k)
+            p[k] *= p[3];
+}
+
+static otx_status
+read_image(otx_run *run, const char *path, osdtex_image **out)
+{
+    otx_picture picture;
+
+    if (!path)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "image", OTX_NOWHERE,
+            "no path is given");
+    OTX_TRY(otx_picture_read(run, path, &picture));
+    associate(&picture);
+    return otx_image_handle_wrap(run, picture.image, out);
+}
+
+osdtex_status
+osdtex_image_read(osdtex_context *context, const char *path, osdtex_image **out)
+{
+    otx_call call;
+
+    if (!out)
+        return OSDTEX_ERROR_ARGUMENT;
+    *out = NULL;
+    OTX_TRY(otx_call_begin(context, "image", &call));
+    return otx_call_end(&call, read_image(&call.run, path, out));
 }
 
 const osdtex_image_info *

@@ -10,6 +10,7 @@
 #include <osdtex/osdtex.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -216,6 +217,7 @@ null_is_an_argument_or_nothing(void **state)
     assert_int_equal(
         osdtex_image_create(context, 1, 1, 3, NULL, &image), wrong);
     assert_int_equal(osdtex_image_write(context, NULL, "x.png"), wrong);
+    assert_int_equal(osdtex_image_read(context, NULL, &image), wrong);
     assert_null(osdtex_cage_describe(NULL));
     assert_null(osdtex_surface_describe(NULL));
     assert_null(osdtex_exemplar_describe(NULL));
@@ -414,6 +416,43 @@ an_exemplar_from_pixels(void **state)
     osdtex_exemplar_destroy(exemplar);
 }
 
+/* Halves come back as they were written, and PNG as integers over 255. */
+static void
+an_image_is_read_back(void **state)
+{
+    static const float pixels[] = {0.0f, 0.25f, 4.0f,  1.0f, 0.5f, 0.125f,
+                                   2.0f, 0.75f, 0.25f, 0.5f, 0.5f, 0.5f};
+    const char *const paths[] = {"test_api_image.exr", "test_api_image.png"};
+    osdtex_image *image;
+
+    assert_int_equal(
+        osdtex_image_create(*state, 2, 2, 3, pixels, &image), OSDTEX_OK);
+    for (int i = 0; i < 2; ++i)
+    {
+        const osdtex_image_info *back;
+        osdtex_image *again;
+
+        assert_int_equal(
+            osdtex_image_write(*state, image, paths[i]), OSDTEX_OK);
+        assert_int_equal(
+            osdtex_image_read(*state, paths[i], &again), OSDTEX_OK);
+        remove(paths[i]);
+        back = osdtex_image_describe(again);
+        assert_int_equal(back->width, 2);
+        assert_int_equal(back->channels, 3);
+        if (i == 0)
+            assert_memory_equal(back->pixels, pixels, sizeof pixels);
+        else
+            assert_true(
+                back->pixels[9] * 255.0f == roundf(back->pixels[9] * 255.0f));
+        osdtex_image_destroy(again);
+    }
+    osdtex_image_destroy(image);
+    assert_int_equal(
+        osdtex_image_read(*state, paths[0], &image), OSDTEX_ERROR_IO);
+    assert_null(image);
+}
+
 /* Moments to try out of `count`: all of the first few dozen, then ever fewer.
  */
 static long
@@ -490,6 +529,7 @@ main(void)
         cmocka_unit_test(every_setting_takes_its_own_default),
         WITH_CONTEXT(the_whole_pipe),
         WITH_CONTEXT(an_exemplar_from_pixels),
+        WITH_CONTEXT(an_image_is_read_back),
         cmocka_unit_test(failing_allocations_leak_nothing),
         cmocka_unit_test(cancelling_leaks_nothing),
     };
