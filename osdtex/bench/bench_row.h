@@ -26,6 +26,7 @@ extern const bench_row bench_row_match;
 extern const bench_row bench_row_scipy;
 extern const bench_row bench_row_surface;
 extern const bench_row bench_row_map;
+extern const bench_row bench_row_tile;
 extern const bench_row bench_row_growth;
 extern const bench_row bench_row_write;
 

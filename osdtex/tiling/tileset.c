@@ -20,8 +20,8 @@ is_power_of_two(int32_t value)
     return value > 0 && (value & (value - 1)) == 0;
 }
 
-static otx_strip_sizes
-sizes_of(const otx_tile_layout *layout)
+otx_strip_sizes
+otx_tileset_sizes(const otx_tile_layout *layout)
 {
     const int32_t side = otx_tile_layout_side(layout);
     const int32_t core = layout->gutter + RAY, sew = core + side / 12;
@@ -320,7 +320,7 @@ otx_tileset_make(
 
     *out = (otx_tileset){0};
     OTX_TRY(otx_tileset_plan(run, exemplar, options, &out->layout));
-    kit.sizes = sizes_of(&out->layout);
+    kit.sizes = otx_tileset_sizes(&out->layout);
     kit.boundary_count = out->layout.boundaries;
     kit.corner_count = out->layout.corners;
     OTX_TRY(check_templates(run, exemplar, options, &kit.sizes));

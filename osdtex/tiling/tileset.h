@@ -51,6 +51,9 @@ otx_status otx_tileset_plan(
     otx_run *run, const otx_exemplar *exemplar,
     const otx_tileset_options *options, otx_tile_layout *out);
 
+/* The sizes that go with a layout. */
+otx_strip_sizes otx_tileset_sizes(const otx_tile_layout *layout);
+
 /* Makes the set in run->arena; the seed is run->seed. ARGUMENT, LIMIT,
  * CANCELLED, MEMORY. */
 otx_status otx_tileset_make(

@@ -9,7 +9,7 @@ enum
     EDGE_STAGE = 0x7469a001,
     FACE_STAGE = 0x7469a002,
     VERT_STAGE = 0x7469a003,
-    TRIES = 4,  /* names that are compared for a face */
+    TRIES = 4,  /* names that are compared for a face: two sides may move */
     REPAIRS = 3 /* passes over equal neighbours, at most */
 };
 
@@ -29,6 +29,10 @@ typedef struct assigner
                           * 0: not decided */
     uint64_t *vert_seen; /* [vert_count] bits of tiles around a vertex */
     uint32_t *uses;      /* [name count] */
+    int32_t *suspects;   /* [face_count] faces that may equal a neighbour */
+    int32_t suspect_count;
+    int32_t weights[4];        /* of the sides in a tile's number */
+    int32_t corner_weights[4]; /* of the corners */
     int32_t *names;
 } assigner;
 
@@ -37,29 +41,17 @@ typedef struct face_view
 {
     int32_t verts[4]; /* from the tile's corner 0 on */
     int32_t edges[4];
-    int32_t sides[4]; /* type, -1 not decided */
-    int32_t corners[4];
+    int32_t sides[4];      /* type, -1 not decided */
+    int32_t corner_number; /* what the corners add to the tile's number */
 } face_view;
 
 static inline int32_t
 vert_corner(const assigner *a, int32_t vert)
 {
-    if (a->corners == 1)
-        return 0;
     return (int32_t)((otx_random_bits(a->seed, VERT_STAGE, (uint64_t)vert) >>
                       40) *
                          (uint64_t)a->corners >>
                      24);
-}
-
-static inline int32_t
-number_of(const assigner *a, const int32_t *s, const int32_t *c)
-{
-    const int32_t v = a->corners;
-    const int32_t column = ((s[0] * a->types + s[1]) * v + c[0]) * v + c[1];
-    const int32_t row = ((s[2] * a->types + s[3]) * v + c[2]) * v + c[3];
-
-    return column + row * a->half;
 }
 
 /* The bit of a name around a vertex. Where there are more than 64 names some
@@ -72,6 +64,13 @@ bit_of(const assigner *a, int32_t number)
     return (uint64_t)1 << (a->exact ? n : n * 0x9E3779B1u >> 26);
 }
 
+/* The type that the second face of an edge sees, -1 when there was no first. */
+static inline int32_t
+given_type(uint8_t stored)
+{
+    return stored == 0 ? -1 : ((int32_t)stored - 1) ^ 1;
+}
+
 static inline void
 view_face(const assigner *a, int32_t face, face_view *f)
 {
@@ -80,16 +79,17 @@ view_face(const assigner *a, int32_t face, face_view *f)
     const int32_t *edges = level->face_edges + 4 * (size_t)face;
     const int32_t turns = a->input->turns ? a->input->turns[face] : 0;
 
+    f->corner_number = 0;
     for (int32_t i = 0; i < 4; ++i)
     {
         const int32_t from = (i + turns) & 3;
 
         f->verts[i] = verts[from];
         f->edges[i] = edges[from];
-        f->sides[i] = ((int32_t)a->edge_types[edges[from]] - 1) ^ 1;
-        if (a->edge_types[edges[from]] == 0)
-            f->sides[i] = -1;
-        f->corners[i] = vert_corner(a, verts[from]);
+        f->sides[i] = given_type(a->edge_types[edges[from]]);
+        if (a->corners > 1)
+            f->corner_number +=
+                vert_corner(a, verts[from]) * a->corner_weights[i];
     }
 }
 
@@ -106,58 +106,79 @@ free_type(const assigner *a, int32_t side, int32_t draw)
     return side & 1 ? type + a->input->layout->boundaries : type;
 }
 
-/* Fills the free sides for the `k`th of TRIES candidates: the draws of the
- * face, of which some are moved on by one. */
-static inline void
-complete(
-    const assigner *a, uint64_t random, int32_t k, const face_view *f,
-    int32_t sides[4])
+/* The candidates of a face: types drawn for its free sides, of which the first
+ * two may also be the next type. */
+typedef struct candidates
 {
-    int32_t bit = 0;
+    int32_t number;   /* with the types drawn */
+    int32_t sides[4]; /* those types; given ones as they are */
+    int32_t moved[2]; /* free sides that may move, 0 where there are none */
+    int32_t types[2]; /* to these types */
+    int32_t steps[2]; /* by which the number changes then */
+} candidates;
 
+static inline void
+draw(const assigner *a, uint64_t random, const face_view *f, candidates *out)
+{
+    int32_t free_count = 0;
+
+    out->number = f->corner_number;
+    out->steps[0] = out->steps[1] = 0;
+    out->moved[0] = out->moved[1] = 0;
     for (int32_t i = 0; i < 4; ++i)
     {
-        int32_t draw;
+        out->sides[i] = f->sides[i];
+        if (f->sides[i] < 0)
+        {
+            const int32_t d =
+                (int32_t)((random >> (16 * i) & 0xffff) * (uint64_t)a->span >> 16);
 
-        sides[i] = f->sides[i];
-        if (sides[i] >= 0)
-            continue;
-        draw =
-            (int32_t)((random >> (16 * i) & 0xffff) * (uint64_t)a->span >> 16) +
-            (k >> bit++ & 1);
-        sides[i] = free_type(a, i, draw >= a->span ? draw - a->span : draw);
+            out->sides[i] = free_type(a, i, d);
+            if (free_count < 2)
+            {
+                const int32_t type =
+                    free_type(a, i, d + 1 == a->span ? 0 : d + 1);
+
+                out->moved[free_count] = i;
+                out->types[free_count] = type;
+                out->steps[free_count++] =
+                    (type - out->sides[i]) * a->weights[i];
+            }
+        }
+        out->number += out->sides[i] * a->weights[i];
     }
 }
 
-/* The candidate that is not around any of the vertices and is used least. */
-static inline int32_t
-choose(const assigner *a, uint64_t random, const face_view *f, int32_t sides[4])
+/* The candidate that is not around any of the vertices and is used least; the
+ * first of several. True when it is around one of them all the same. */
+static inline bool
+choose(const assigner *a, uint64_t seen, candidates *c)
 {
-    uint64_t seen = 0, best_score = UINT64_MAX;
+    uint64_t best_score = UINT64_MAX;
     int32_t best = 0;
 
-    for (int32_t i = 0; i < 4; ++i)
-        seen |= a->vert_seen[f->verts[i]];
     for (int32_t k = 0; k < TRIES; ++k)
     {
-        int32_t tried[4], number;
-        uint64_t score;
+        const int32_t number =
+            c->number + (k & 1 ? c->steps[0] : 0) + (k & 2 ? c->steps[1] : 0);
+        const uint64_t is_seen = (seen & bit_of(a, number)) != 0;
+        const uint64_t score = a->uses[number] + (is_seen << 40);
 
-        complete(a, random, k, f, tried);
-        number = number_of(a, tried, f->corners);
-        score = a->uses[number] +
-                ((seen & bit_of(a, number)) ? (uint64_t)1 << 40 : 0);
-        if (score < best_score)
-        {
-            best_score = score;
-            best = number;
-            memcpy(sides, tried, sizeof tried);
-        }
+        best = score < best_score ? k : best;
+        best_score = score < best_score ? score : best_score;
     }
-    return best;
+    for (int32_t m = 0; m < 2; ++m)
+        if ((best >> m & 1) && c->steps[m] != 0)
+        {
+            c->sides[c->moved[m]] = c->types[m];
+            c->number += c->steps[m];
+        }
+    return best_score >> 40 != 0;
 }
 
-/* Names for all faces, spreading them. */
+/* Names for all faces, spreading them. Faces that had to take a name that is
+ * around them go to the list of suspects: of two equal neighbours, the later
+ * one is on it. */
 static void
 spread(assigner *a)
 {
@@ -165,10 +186,8 @@ spread(assigner *a)
 
     for (int32_t face = 0; face < level->face_count; ++face)
     {
-        const uint64_t random =
-            otx_random_bits(a->seed, FACE_STAGE, (uint64_t)face);
-        int32_t sides[4], number;
-        uint64_t bit;
+        uint64_t seen = 0, bit;
+        candidates c;
         face_view f;
 
         if (level->face_hole && level->face_hole[face])
@@ -177,16 +196,20 @@ spread(assigner *a)
             continue;
         }
         view_face(a, face, &f);
-        number = choose(a, random, &f, sides);
-        bit = bit_of(a, number);
+        draw(a, otx_random_bits(a->seed, FACE_STAGE, (uint64_t)face), &f, &c);
+        for (int32_t i = 0; i < 4; ++i)
+            seen |= a->vert_seen[f.verts[i]];
+        if (choose(a, seen, &c))
+            a->suspects[a->suspect_count++] = face;
+        bit = bit_of(a, c.number);
         for (int32_t i = 0; i < 4; ++i)
         {
             if (f.sides[i] < 0)
-                a->edge_types[f.edges[i]] = (uint8_t)(sides[i] + 1);
+                a->edge_types[f.edges[i]] = (uint8_t)(c.sides[i] + 1);
             a->vert_seen[f.verts[i]] |= bit;
         }
-        ++a->uses[number];
-        a->names[face] = number;
+        ++a->uses[c.number];
+        a->names[face] = c.number;
     }
 }
 
@@ -216,7 +239,9 @@ draw_all(assigner *a)
                 a, i, (int32_t)((random >> 40) * (uint64_t)a->span >> 24));
             a->edge_types[f.edges[i]] = (uint8_t)(f.sides[i] + 1);
         }
-        a->names[face] = number_of(a, f.sides, f.corners);
+        a->names[face] = f.corner_number;
+        for (int32_t i = 0; i < 4; ++i)
+            a->names[face] += f.sides[i] * a->weights[i];
     }
 }
 
@@ -247,38 +272,36 @@ is_beside(const assigner *a, int32_t face, int32_t number, int32_t but)
     return false;
 }
 
-/* The name of `face` when its side on `edge` becomes `type`. */
+/* Side of the tile on `face` that lies on `edge`. */
 static int32_t
-renamed(const assigner *a, int32_t face, int32_t edge, int32_t type)
+side_on(const assigner *a, int32_t face, int32_t edge)
 {
-    otx_tile_name name = otx_tile_layout_name(a->input->layout, a->names[face]);
+    const int32_t *edges = a->input->level->face_edges + 4 * (size_t)face;
     const int32_t turns = a->input->turns ? a->input->turns[face] : 0;
+    int32_t i = 0;
 
-    for (int32_t i = 0; i < 4; ++i)
-        if (a->input->level
-                ->face_edges[4 * (size_t)face + (size_t)((i + turns) & 3)] ==
-            edge)
-            name.sides[i] = type;
-    return number_of(a, name.sides, name.corners);
+    while (i < 3 && edges[i] != edge)
+        ++i;
+    return (i - turns) & 3;
 }
 
-/* Tries another type on side `i` of `face`; true when neither it nor the face
- * beyond then equals a neighbour. */
+/* Changes side `i` of `face` from type `old` to `type`, and the face beyond
+ * with it; false where one of them would then equal a neighbour. */
 static bool
-change_side(assigner *a, int32_t face, int32_t i, int32_t draw)
+change_side(assigner *a, int32_t face, int32_t i, int32_t old, int32_t type)
 {
     const otx_level *level = a->input->level;
     const int32_t turns = a->input->turns ? a->input->turns[face] : 0;
     const int32_t edge =
         level->face_edges[4 * (size_t)face + (size_t)((i + turns) & 3)];
     const int32_t other = neighbour(level, face, edge);
-    const int32_t type = free_type(a, i, draw);
-    const int32_t mine = renamed(a, face, edge, type);
-    const int32_t theirs = other >= 0 && other != face && a->names[other] >= 0
-                               ? renamed(a, other, edge, type ^ 1)
-                               : -1;
+    const int32_t mine = a->names[face] + (type - old) * a->weights[i];
+    int32_t theirs = -1;
 
-    if (other == face || mine == theirs || is_beside(a, face, mine, other) ||
+    if (other >= 0 && a->names[other] >= 0)
+        theirs = a->names[other] +
+                 ((type ^ 1) - (old ^ 1)) * a->weights[side_on(a, other, edge)];
+    if (mine == theirs || is_beside(a, face, mine, other) ||
         (theirs >= 0 && is_beside(a, other, theirs, face)))
         return false;
     a->names[face] = mine;
@@ -290,27 +313,50 @@ change_side(assigner *a, int32_t face, int32_t i, int32_t draw)
 static void
 mend_face(assigner *a, int32_t face)
 {
+    const otx_tile_name name =
+        otx_tile_layout_name(a->input->layout, a->names[face]);
+
     for (int32_t i = 0; i < 4; ++i)
-        for (int32_t draw = 0; draw < a->span; ++draw)
-            if (change_side(a, face, i, draw))
+        for (int32_t d = 0; d < a->span; ++d)
+        {
+            const int32_t type = free_type(a, i, d);
+
+            if (type != name.sides[i] &&
+                change_side(a, face, i, name.sides[i], type))
                 return;
+        }
 }
 
 static void
 mend(assigner *a)
 {
-    const int32_t count = a->input->level->face_count;
     bool found = true;
 
     for (int32_t pass = 0; pass < REPAIRS && found; ++pass)
     {
         found = false;
-        for (int32_t face = 0; face < count; ++face)
-            if (a->names[face] >= 0 && is_beside(a, face, a->names[face], face))
-            {
-                found = true;
-                mend_face(a, face);
-            }
+        for (int32_t i = 0; i < a->suspect_count; ++i)
+        {
+            const int32_t face = a->suspects[i];
+
+            if (!is_beside(a, face, a->names[face], face))
+                continue;
+            found = true;
+            mend_face(a, face);
+        }
+    }
+}
+
+/* A tile's number is a sum over its sides and corners. */
+static void
+set_weights(assigner *a)
+{
+    const int32_t v = a->corners;
+
+    for (int32_t i = 0; i < 4; ++i)
+    {
+        a->weights[i] = v * v * (i & 1 ? 1 : a->types) * (i > 1 ? a->half : 1);
+        a->corner_weights[i] = (i & 1 ? 1 : v) * (i > 1 ? a->half : 1);
     }
 }
 
@@ -331,15 +377,17 @@ otx_assign_names(otx_run *run, const otx_assign_input *input, int32_t *names)
         .edge_types = OTX_ZNEW(run->scratch, uint8_t, input->level->edge_count),
         .vert_seen = OTX_ZNEW(run->scratch, uint64_t, input->level->vert_count),
         .uses = OTX_ZNEW(run->scratch, uint32_t, (size_t)half * (size_t)half),
+        .suspects = OTX_NEW(run->scratch, int32_t, input->level->face_count),
         .names = names,
     };
 
-    if (!a.edge_types || !a.vert_seen || !a.uses)
+    if (!a.edge_types || !a.vert_seen || !a.uses || !a.suspects)
         return otx_fail_memory(run, STAGE);
     a.span = layout->oriented ? layout->boundaries : a.types;
     a.step = parity ? 2 : 1;
     if (parity)
         a.span /= 2;
+    set_weights(&a);
     if (input->plain)
         draw_all(&a);
     else
