@@ -98,3 +98,27 @@ otx_method_map(
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }
+
+otx_status
+otx_method_fill(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_map_request *request, const otx_method_given *given,
+    otx_mapping *out, otx_map_stats *stats)
+{
+    const otx_method *method = NULL;
+    void *settings;
+
+    for (int32_t i = 0; i < otx_method_count() && !method; ++i)
+        if (otx_method_at(i)->fill)
+            method = otx_method_at(i);
+    if (!method)
+        return otx_fail(
+            run, OSDTEX_ERROR_SUPPORT, "map", OTX_NOWHERE,
+            "this build has no method that fills in patches");
+    settings = otx_arena_zalloc(run->arena, 1, method->settings_bytes);
+    if (!settings)
+        return otx_fail_memory(run, "map");
+    otx_option_defaults(method->options, method->option_count, settings);
+    return method->fill(
+        run, surface, exemplar, request, settings, given, out, stats);
+}

@@ -53,6 +53,15 @@ typedef struct otx_map_request
     const otx_guide *guide; /* that patches follow; NULL: the method's choice */
 } otx_map_request;
 
+/* What is textured before a method begins. */
+typedef struct otx_method_given
+{
+    const int32_t *face_patch; /* [leaf face_count], -1 to be covered */
+    int32_t patch_count;
+    const otx_vec2 *uvs; /* [leaf corner_count] texels; corners that share
+                          * vertex and patch are equal */
+} otx_method_given;
+
 typedef struct otx_method
 {
     const char *name;
@@ -65,12 +74,25 @@ typedef struct otx_method
         otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
         const otx_map_request *request, const void *settings, otx_mapping *out,
         otx_map_stats *stats);
+    /* Covers what is not given and joins it to what is; NULL when the method
+     * cannot. Stages are added to `stats`. */
+    otx_status (*fill)(
+        otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+        const otx_map_request *request, const void *settings,
+        const otx_method_given *given, otx_mapping *out, otx_map_stats *stats);
 } otx_method;
 
 int32_t otx_method_count(void);
 const otx_method *otx_method_at(int32_t index);
 /* NULL when there is none of that name. */
 const otx_method *otx_method_find(const char *name);
+
+/* Covers what is not given by the first method of the table that can, with
+ * its defaults. SUPPORT when none can. */
+otx_status otx_method_fill(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_map_request *request, const otx_method_given *given,
+    otx_mapping *out, otx_map_stats *stats);
 
 /* Runs `method`. The mapping lives in run->arena and borrows the surface. */
 otx_status otx_method_map(

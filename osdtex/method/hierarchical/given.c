@@ -11,7 +11,7 @@ void
 otx_given_take(otx_mapper *m)
 {
     const otx_level *leaf = m->leaves.level;
-    const otx_hierarchical_given *given = m->given;
+    const otx_method_given *given = m->given;
 
     m->patch_count = given->patch_count;
     for (int32_t p = 0; p < given->patch_count; ++p)

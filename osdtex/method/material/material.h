@@ -14,7 +14,6 @@
 #include "field/scale.h"
 #include "field/singularity.h"
 #include "image/analysis.h"
-#include "method/hierarchical/hierarchical.h"
 #include "method/material/phase.h"
 #include "method/method.h"
 

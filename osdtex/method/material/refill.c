@@ -4,6 +4,7 @@
  * the exemplar that follow the same field continue what is around them. */
 #include "method/material/material.h"
 
+#include "cluster/dual.h"
 #include "flatten/stretch.h"
 
 /* -- which faces --------------------------------------------------------- */
@@ -95,25 +96,15 @@ otx_refill_choose(otx_material *m, const otx_vec2 *cells, uint8_t *open)
 otx_status
 otx_refill_run(otx_material *m, otx_mapping *out)
 {
-    otx_hierarchical_settings settings;
+    const otx_method_given given = {m->face_patch, m->patch_count, m->uvs};
     otx_map_request request = *m->request;
     otx_guide guide;
-    const otx_hierarchical_given given = {
-        m->face_patch, m->patch_count, m->uvs};
 
     OTX_TRY(otx_guide_from_field(
         m->run, &m->field,
         m->analysis.angle - m->settings->turn * OTX_PI / 180.0, &guide));
     request.guide = &guide;
     request.first_face = -1;
-    otx_option_defaults(
-        otx_hierarchical_options, OTX_HIERARCHICAL_OPTION_COUNT, &settings);
-    if (m->filled_share == 0.0)
-    {
-        settings.cut = OTX_HIERARCHICAL_OFF;
-        settings.relax = OTX_HIERARCHICAL_RELAX_OFF;
-    }
-    return otx_hierarchical_fill(
-        m->run, m->surface, m->exemplar, &request, &settings, &given, out,
-        m->stats);
+    return otx_method_fill(
+        m->run, m->surface, m->exemplar, &request, &given, out, m->stats);
 }
