@@ -25,6 +25,26 @@ otx_cluster_faces(otx_run *run, const otx_dual *dual, otx_cluster_list *out)
     return OSDTEX_OK;
 }
 
+/* Of the leaves below a face; 0 on a hole. */
+static double
+face_area(const otx_surface *surface, int32_t level, int32_t face)
+{
+    double area = 0.0;
+    int32_t first, end;
+
+    if (surface->levels[level].face_hole[face])
+        return 0.0;
+    otx_surface_leaves(surface, level, face, &first, &end);
+    for (int32_t f = first; f < end; ++f)
+    {
+        otx_vec3 centroid;
+
+        area +=
+            0.5 * otx_vec3_length(otx_dual_leaf_area(surface, f, &centroid));
+    }
+    return area;
+}
+
 otx_status
 otx_cluster_children(
     otx_run *run, const otx_surface *surface, const otx_cluster *cluster,
@@ -47,7 +67,8 @@ otx_cluster_children(
     {
         faces[i] = first + i;
         out->clusters[i] = (otx_cluster){
-            cluster->level + 1, 1, &faces[i], cluster->area / count};
+            cluster->level + 1, 1, &faces[i],
+            face_area(surface, cluster->level + 1, first + i)};
     }
     out->count = count;
     return OSDTEX_OK;

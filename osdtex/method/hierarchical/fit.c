@@ -91,31 +91,6 @@ make_mask(otx_mapper *m, const otx_node *node, otx_mask *out)
     return OSDTEX_OK;
 }
 
-/* The rotation by which the mask's charts lie in the exemplar now, weighted by
- * area: the orientation that continues them. */
-static double
-continuing_angle(const otx_mask *mask)
-{
-    otx_vec2 turn = {0, 0};
-
-    for (int32_t i = 0; i < mask->triangle_count; ++i)
-    {
-        const otx_mask_triangle *t = &mask->triangles[i];
-
-        for (int k = 1; k < 3; ++k)
-        {
-            const otx_vec2 a = otx_vec2_sub(t->flat[k], t->flat[0]);
-            const otx_vec2 b = otx_vec2_sub(t->source[k], t->source[0]);
-
-            turn = otx_vec2_add(
-                turn,
-                otx_vec2_scale(
-                    t->weight[0], otx_vec2_mul((otx_vec2){a.x, -a.y}, b)));
-        }
-    }
-    return atan2(turn.y, turn.x);
-}
-
 /* -- placement ----------------------------------------------------------- */
 
 static otx_vec2
@@ -270,7 +245,7 @@ search(
     int32_t *count)
 {
     const otx_hierarchical_settings *s = &m->settings;
-    const double start = s->continuation ? continuing_angle(mask)
+    const double start = s->continuation ? otx_continuation_angle(mask)
                                          : 2.0 * OTX_PI *
                                                otx_random_unit(
                                                    m->run->seed, STAGE_ANGLE,
@@ -349,6 +324,21 @@ commit(otx_mapper *m, int32_t index, otx_match placed, otx_vec2 middle)
     note_usage(m, node, middle);
 }
 
+/* Puts the exact continuation first when the search found nothing better. */
+static void
+offer_continuation(
+    const otx_mapper *m, const otx_mask *mask, const otx_vec2 *points,
+    int32_t point_count, otx_match *best, int32_t *count)
+{
+    otx_match match;
+
+    if (!otx_continuation_match(m, mask, points, point_count, &match) ||
+        (*count > 0 && match.error > best[0].error))
+        return;
+    best[0] = match;
+    *count = *count > 0 ? *count : 1;
+}
+
 static bool
 is_users_first(const otx_mapper *m, const otx_node *node)
 {
@@ -383,6 +373,8 @@ otx_fit_node(otx_mapper *m, int32_t index, bool *accepted)
     else
         OTX_TRY(
             search(m, index, &mask, middle, points, point_count, best, &count));
+    if (m->settings.continuation && mask.triangle_count > 0)
+        offer_continuation(m, &mask, points, point_count, best, &count);
     /* The surroundings may reach out of the exemplar where the patch does not;
      * a patch that cannot be split goes without them. */
     if (count == 0 && !otx_nodes_can_split(m, node))

@@ -16,6 +16,7 @@ leaves_of_children_are_those_of_the_parent(void **state)
     for (int32_t i = 0; i < faces.count; ++i)
     {
         int32_t count, next = 0;
+        double area = 0.0;
         const int32_t *all =
             otx_cluster_leaves(run->arena, &s, &faces.clusters[i], &count);
 
@@ -30,10 +31,12 @@ leaves_of_children_are_those_of_the_parent(void **state)
                 otx_cluster_leaves(run->arena, &s, &children.clusters[k], &n);
 
             assert_int_equal(children.clusters[k].level, 1);
+            area += children.clusters[k].area;
             for (int32_t j = 0; j < n; ++j)
                 assert_int_equal(some[j], all[next++]);
         }
         assert_int_equal(next, count);
+        assert_true(fabs(area / faces.clusters[i].area - 1.0) < 1e-9);
     }
     test_run_destroy(run);
 }
