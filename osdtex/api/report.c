@@ -4,6 +4,7 @@
  * comma. What is in it is described in docs/report.md. */
 #include "api/call.h"
 #include "api/handle.h"
+#include "api/tile_report.h"
 #include "file/atomic_file.h"
 #include "mapping/measure.h"
 
@@ -369,6 +370,7 @@ write_report(otx_call *call, const osdtex_mapping *mapping, const char *path)
     put_options(root, context, mapping);
     put_colour(root, context, mapping);
     put_mapping(root, mapping);
+    OTX_TRY(otx_tile_report_add(run, mapping, root));
     put_seams(root, &measure);
     put_distortion(root, &measure);
     put_cost(root, context, mapping);
