@@ -212,11 +212,11 @@ prepare(otx_mapper *m)
         m->settings.coarse, &m->matcher);
 }
 
-otx_status
-otx_hierarchical_fill(
+static otx_status
+fill(
     otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    const otx_map_request *request, const otx_hierarchical_settings *settings,
-    const otx_hierarchical_given *given, otx_mapping *out, otx_map_stats *stats)
+    const otx_map_request *request, const void *settings,
+    const otx_method_given *given, otx_mapping *out, otx_map_stats *stats)
 {
     otx_mapper *m = OTX_ZNEW(run->arena, otx_mapper, 1);
 
@@ -227,7 +227,7 @@ otx_hierarchical_fill(
     m->exemplar = exemplar;
     m->request = request;
     m->given = given;
-    m->settings = *settings;
+    m->settings = *(const otx_hierarchical_settings *)settings;
     m->stats = stats;
     m->texels = exemplar->match.width / request->scale;
     otx_hierarchical_resolve(&m->settings, exemplar);
@@ -235,6 +235,12 @@ otx_hierarchical_fill(
 
     OTX_TRY(prepare(m));
     OTX_TRY(otx_nodes_start(m));
+    if (m->given && m->node_count == 0)
+    {
+        /* Nothing to cover, nothing to join. */
+        m->settings.cut = OTX_HIERARCHICAL_OFF;
+        m->settings.relax = OTX_HIERARCHICAL_RELAX_OFF;
+    }
     otx_map_stats_stage(stats, "flatten");
     OTX_TRY(flatten_all(m));
     otx_map_stats_stage(stats, "fit");
@@ -249,8 +255,7 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     const otx_map_request *request, const void *settings, otx_mapping *out,
     otx_map_stats *stats)
 {
-    return otx_hierarchical_fill(
-        run, surface, exemplar, request, settings, NULL, out, stats);
+    return fill(run, surface, exemplar, request, settings, NULL, out, stats);
 }
 
 const otx_method otx_method_hierarchical = {
@@ -262,4 +267,5 @@ const otx_method otx_method_hierarchical = {
     .option_count = OTX_HIERARCHICAL_OPTION_COUNT,
     .settings_bytes = sizeof(otx_hierarchical_settings),
     .map = map,
+    .fill = fill,
 };

@@ -84,23 +84,6 @@ typedef struct otx_node
     otx_match placed; /* where the chart lies in the exemplar */
 } otx_node;
 
-/* What is textured before a run begins. */
-typedef struct otx_hierarchical_given
-{
-    const int32_t *face_patch; /* [leaf face_count], -1 to be covered */
-    int32_t patch_count;
-    const otx_vec2 *uvs; /* [leaf corner_count] texels; corners that share
-                          * vertex and patch are equal */
-} otx_hierarchical_given;
-
-/* Covers what is not given and joins it to what is. `settings` as the method
- * takes them. */
-otx_status otx_hierarchical_fill(
-    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    const otx_map_request *request, const otx_hierarchical_settings *settings,
-    const otx_hierarchical_given *given, otx_mapping *out,
-    otx_map_stats *stats);
-
 /* One run. Arrays over leaf faces and corners. */
 typedef struct otx_mapper
 {
@@ -108,8 +91,8 @@ typedef struct otx_mapper
     const otx_surface *surface;
     const otx_exemplar *exemplar;
     const otx_map_request *request;
-    const otx_hierarchical_given *given; /* NULL none */
-    otx_hierarchical_settings settings;  /* resolved */
+    const otx_method_given *given;      /* NULL none */
+    otx_hierarchical_settings settings; /* resolved */
     otx_map_stats *stats;
     double texels; /* per scene unit */
     otx_dual leaves;
