@@ -95,12 +95,17 @@ set_piece(const block *b, int64_t id, otx_texel_piece *piece)
     piece->uv = mix_uv(source, &piece->facet, piece->at);
     piece->uv_dx = mix_uv(source, &piece->facet, piece->dx);
     piece->uv_dy = mix_uv(source, &piece->facet, piece->dy);
-    piece->probes = otx_texture_measure(
-        &source->texture, otx_vec2_scale(share, piece->uv_dx),
-        otx_vec2_scale(share, piece->uv_dy));
+    piece->probes =
+        otx_texture_measure(&source->texture, piece->uv_dx, piece->uv_dy);
+    piece->is_plain = piece->probes.count == 1 && piece->probes.level == 0 &&
+                      piece->probes.fraction == 0.0;
+    if (!piece->is_plain)
+        piece->probes = otx_texture_measure(
+            &source->texture, otx_vec2_scale(share, piece->uv_dx),
+            otx_vec2_scale(share, piece->uv_dy));
 }
 
-static const otx_texel_piece *
+static inline const otx_texel_piece *
 piece_of(block *b, int64_t id)
 {
     otx_texel_piece *piece =
@@ -303,13 +308,17 @@ owner_of(const block *b, int32_t x, int32_t y, int32_t *first)
     const int32_t *chart = b->source->layout->chart;
     int32_t charts[SAMPLES_MAX * SAMPLES_MAX];
     int32_t best = -1, best_count = 0;
+    bool alike = true;
 
     for (int32_t s = 0; s < samples; ++s)
     {
         const int64_t id = sample_id(b, x, y, s);
 
         charts[s] = id < 0 ? -1 : chart[id >> 16];
+        alike = alike && charts[s] == charts[0];
     }
+    if (alike)
+        return charts[0];
     for (int32_t s = 0; s < samples; ++s)
     {
         int32_t count = 0;
@@ -328,6 +337,18 @@ owner_of(const block *b, int32_t x, int32_t y, int32_t *first)
     return best;
 }
 
+/* Whether all samples of a texel are on one facet. */
+static bool
+is_on_one_facet(const block *b, int32_t x, int32_t y)
+{
+    const int64_t id = sample_id(b, x, y, 0);
+
+    for (int32_t s = 1; s < b->raster.n * b->raster.n; ++s)
+        if (sample_id(b, x, y, s) != id)
+            return false;
+    return true;
+}
+
 /* A texel that faces reach into: `chart` is its owner's, which sample `first`
  * has. */
 static void
@@ -340,6 +361,13 @@ texel_color(
     float color[OTX_IMAGE_MAX_CHANNELS];
     double sum[OTX_IMAGE_MAX_CHANNELS] = {0.0};
 
+    /* Where the exemplar is magnified, one bilinear lookup is what is seen. */
+    if (is_on_one_facet(b, x, y) && piece_of(b, home)->is_plain)
+    {
+        sample_color(
+            b, piece_of(b, home), otx_raster_texel(&b->raster, x, y), out);
+        return;
+    }
     for (int32_t s = 0; s < samples; ++s)
     {
         const int64_t id = sample_id(b, x, y, s);

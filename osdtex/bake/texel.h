@@ -40,6 +40,7 @@ typedef struct otx_texel_piece
     double at[3], dx[3], dy[3]; /* barycentric: at texel (0, 0), and changes */
     otx_vec2 uv, uv_dx, uv_dy;  /* likewise, in the exemplar */
     otx_texture_probes probes;  /* of a sample */
+    bool is_plain; /* a whole texel is no larger than one of the exemplar */
 } otx_texel_piece;
 
 /* Samples to a texel's side: a coarse texel sees more faces. */

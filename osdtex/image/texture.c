@@ -24,9 +24,12 @@ otx_texture_create(
 static double
 reduce(double x, bool wrap)
 {
+    /* Most are in the picture, and floor() is a call. */
+    if (x >= 0.0 && x < 1.0)
+        return x;
     if (wrap)
         return x - floor(x);
-    /* Not fmin and fmax: those keep NaN checks in the innermost loop. */
+    /* Written so that NaN is held too. */
     return x > -1.0 ? x < 2.0 ? x : 2.0 : -1.0;
 }
 
@@ -34,10 +37,32 @@ static void
 look_up(const otx_texture *texture, int32_t level, otx_vec2 uv, float *color)
 {
     const otx_image *image = &texture->pyramid.levels[level];
+    const double x = uv.x * image->width - 0.5;
+    const double y = uv.y * image->height - 0.5;
+    const size_t stride = (size_t)image->width * (size_t)image->channels;
 
-    otx_image_sample(
-        image, texture->wrap_x, texture->wrap_y,
-        (otx_vec2){uv.x * image->width, uv.y * image->height}, color);
+    if (!(x >= 0.0 && y >= 0.0 && x < image->width - 1 &&
+          y < image->height - 1))
+    {
+        otx_image_sample(
+            image, texture->wrap_x, texture->wrap_y,
+            (otx_vec2){x + 0.5, y + 0.5}, color);
+        return;
+    }
+
+    /* As otx_image_sample does it, where nothing wraps or is held. */
+    const int32_t i = (int32_t)x, j = (int32_t)y;
+    const double u = x - i, v = y - j;
+    const float *low = otx_image_at(image, i, j), *high = low + stride;
+
+    for (int32_t c = 0; c < image->channels; ++c)
+    {
+        const int32_t next = c + image->channels;
+        const double below = (1.0 - u) * low[c] + u * low[next];
+        const double above = (1.0 - u) * high[c] + u * high[next];
+
+        color[c] = (float)((1.0 - v) * below + v * above);
+    }
 }
 
 /* Linear between the two levels around the probes' width. */
