@@ -124,7 +124,7 @@ enum
 {
     PICTURE = 256,
     TILES = 16,
-    WINDOWS = 6,
+    WINDOWS = 8,
     PATCHES = 2,
     ROUNDS = 2,
     BLOCK = 8 /* as ring_search.c */

@@ -6,9 +6,12 @@
 
 enum
 {
-    UNIT = 64,       /* cost of one Lab unit */
-    ABSENT = 1 << 16 /* of a side where a sheet has a hole: 1024 Lab units,
-                      * dearer than any seam of a tile's length is worth */
+    UNIT = 64,        /* of one Lab unit */
+    ABSENT = 1 << 16, /* where a sheet has a hole: no distance in Lab */
+    /* So that the most different colours cost less than 2^17, and a hole more
+     * than a hundred of them. */
+    TOLL_SCALE = 1 << 9,
+    ABSENT_TOLL = 1 << 24
 };
 
 static const char STAGE[] = "tiles";
@@ -75,11 +78,21 @@ distance(const otx_quilt *quilt, size_t at, int32_t a, int32_t b)
     return (int64_t)(otx_texel_pool_distance(quilt->pool, p, q) * UNIT + 0.5);
 }
 
+/* What one side of a seam costs: the square, since the eye finds the worst spot
+ * of a cut, and a longer one that avoids it shows less. */
+static int64_t
+toll(const otx_quilt *quilt, size_t at, int32_t a, int32_t b)
+{
+    const int64_t d = distance(quilt, at, a, b);
+
+    return d == ABSENT ? ABSENT_TOLL : d * d / TOLL_SCALE;
+}
+
 /* Cost of sheet `a` at `p` beside sheet `b` at `q`. */
 static int64_t
 seam(const otx_quilt *quilt, size_t p, size_t q, int32_t a, int32_t b)
 {
-    return a == b ? 0 : distance(quilt, p, a, b) + distance(quilt, q, a, b);
+    return a == b ? 0 : toll(quilt, p, a, b) + toll(quilt, q, a, b);
 }
 
 void
@@ -145,8 +158,8 @@ add_pair(move *m, size_t p, size_t q)
             fixed_shows ? mine : keep_keep);
         return;
     }
-    /* A hole can break the triangle inequality; then the old seam counts for
-     * less than it is, which only makes the move more careful. */
+    /* Squares and holes can break the triangle inequality. Then the old seam
+     * counts for less than it is, which makes the move more careful. */
     if (keep_keep > keep_take + take_keep)
         keep_keep = keep_take + take_keep;
     otx_maxflow_terminal(m->graph, node_q, 0, take_keep);
@@ -266,7 +279,7 @@ otx_quilt_measure(const otx_quilt *quilt)
                      quilt->sheets[a].texels[p] == quilt->sheets[b].texels[p]))
                     continue;
                 ++seams.length;
-                cost += seam(quilt, p, q, a, b);
+                cost += distance(quilt, p, a, b) + distance(quilt, q, a, b);
             }
     if (seams.length > 0)
         seams.mean = (double)cost / (2.0 * UNIT * (double)seams.length);

@@ -2,9 +2,9 @@
  *
  * Several *sheets* lie over one another; every texel of the result shows one
  * of them. Where two neighbours p, q show different sheets a, b there is a
- * seam, and it costs [Kwatra03, eq. 1]
+ * seam, and it costs, after [Kwatra03, eq. 1] but squared,
  *
- *     |a(p) - b(p)| + |a(q) - b(q)|
+ *     |a(p) - b(p)|^2 + |a(q) - b(q)|^2
  *
  * in Lab. `otx_quilt_expand` finds the best set of texels to give to one
  * sheet, by a minimum cut (an expansion move [Boykov01]). The first picture

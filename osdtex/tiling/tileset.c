@@ -310,7 +310,7 @@ otx_tileset_make(
     otx_run *run, const otx_exemplar *exemplar,
     const otx_tileset_options *options, otx_tileset *out)
 {
-    static const otx_interior_options interior = {6, 2, 2};
+    static const otx_interior_options interior = {8, 2, 2};
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     otx_frame_kit kit = {0};
     otx_ring_search search;
