@@ -1,7 +1,8 @@
 /* phase.c -- periodic coordinates that follow a direction field.
  *
- * Real systems of two unknowns to a vertex: conjugation is not linear over
- * the complex numbers. */
+ * Senses are first made equal wherever they can be. Where all are, the systems
+ * are complex; else they are real, of two unknowns to a vertex, at three times
+ * the cost, since conjugation is not linear over the complex numbers. */
 #include "method/material/phase.h"
 
 #include "base/queue.h"
@@ -9,8 +10,8 @@
 
 enum
 {
-    EIGEN_ROUNDS = 30,
-    UNIT_ROUNDS = 20
+    EIGEN_ROUNDS = 8,
+    UNIT_ROUNDS = 6
 };
 
 /* Length over which one round smooths, in cells. */
@@ -33,23 +34,71 @@ typedef struct solver
                       * along its half-edge */
     double *step[2]; /* [edge_count] steps that the phases make */
     double *z[2];    /* [2 vert_count] */
+    bool one_sense;  /* all faces agree: complex systems do */
 } solver;
 
 /* -- senses -------------------------------------------------------------- */
 
+/* 1 when two faces show the same sense across an inner edge, else -1. */
+static int
+match_of(const solver *s, int32_t edge)
+{
+    const int32_t *faces = s->c->level->edge_faces + 2 * (size_t)edge;
+
+    return cos(s->angles[faces[1]] - s->angles[faces[0]] - s->c->turns[edge]) <
+                   0.0
+               ? -1
+               : 1;
+}
+
+/* Turns faces around, outwards from one of each component, until neighbours
+ * agree but across cuts between singularities or round handles. */
+static otx_status
+comb(solver *s)
+{
+    const otx_level *level = s->c->level;
+    int32_t *queue = OTX_NEW(s->run->scratch, int32_t, level->face_count);
+    uint8_t *seen = OTX_ZNEW(s->run->scratch, uint8_t, level->face_count);
+    int32_t head = 0, tail = 0;
+
+    if (!queue || !seen)
+        return otx_fail_memory(s->run, "field");
+    for (int32_t seed = 0; seed < level->face_count; ++seed)
+    {
+        if (!seen[seed])
+            queue[tail++] = seed;
+        seen[seed] = 1;
+        while (head < tail)
+        {
+            const int32_t face = queue[head++];
+
+            for (int32_t i = level->face_first[face];
+                 i < level->face_first[face + 1]; ++i)
+            {
+                const int32_t e = level->face_edges[i];
+                const int32_t *faces = level->edge_faces + 2 * (size_t)e;
+                const int32_t other = faces[faces[0] == face];
+
+                if (!s->c->inner[e] || seen[other])
+                    continue;
+                if (match_of(s, e) < 0)
+                    s->angles[other] += OTX_PI;
+                seen[other] = 1;
+                queue[tail++] = other;
+            }
+        }
+    }
+    return OSDTEX_OK;
+}
+
 static void
 match_edges(solver *s)
 {
+    s->one_sense = true;
     for (int32_t e = 0; e < s->c->level->edge_count; ++e)
     {
-        const int32_t *faces = s->c->level->edge_faces + 2 * (size_t)e;
-
-        s->phase->match[e] = 1;
-        if (s->c->inner[e])
-            s->phase->match[e] = cos(s->angles[faces[1]] - s->angles[faces[0]] -
-                                     s->c->turns[e]) < 0.0
-                                     ? -1
-                                     : 1;
+        s->phase->match[e] = (int8_t)(s->c->inner[e] ? match_of(s, e) : 1);
+        s->one_sense &= s->phase->match[e] > 0;
     }
 }
 
@@ -107,17 +156,20 @@ sense_around(solver *s, int32_t face, int32_t corner)
     }
 }
 
-static void
+static otx_status
 choose_senses(solver *s)
 {
     const otx_level *level = s->c->level;
 
+    if (s->request->field->symmetry > 1)
+        OTX_TRY(comb(s));
     match_edges(s);
     for (int32_t f = 0; f < level->face_count; ++f)
         for (int32_t i = level->face_first[f]; i < level->face_first[f + 1];
              ++i)
             if (s->sense[i] == 0)
                 sense_around(s, f, i);
+    return OSDTEX_OK;
 }
 
 /* -- steps asked for ----------------------------------------------------- */
@@ -205,39 +257,63 @@ edge_weight(const otx_connection *c, int32_t edge)
     return c->inner[edge] ? 1.0 / c->weights[edge] : 0.5;
 }
 
+/* The entries of one edge between the vertices v, whose senses at its first
+ * face are given. */
+static int64_t
+add_edge(
+    const solver *s, int axis, int32_t edge, const int32_t v[2],
+    const int sense[2], otx_sparse_entry *entries)
+{
+    const double w = edge_weight(s->c, edge);
+    const double angle = 2.0 * OTX_PI * s->wish[axis][edge];
+    const int32_t width = s->one_sense ? 1 : 2;
+    int64_t count = 0;
+
+    for (int k = 0; k < 2; ++k)
+        for (int32_t p = 0; p < width; ++p)
+            entries[count++] =
+                (otx_sparse_entry){width * v[k] + p, width * v[k] + p, w, 0.0};
+    if (!s->one_sense)
+        return count +
+               add_block(
+                   v[1], v[0], w, angle, sense[1], sense[0], entries + count);
+    /* Row v1, column v0: -w e^(i angle), or its conjugate in row v0. */
+    entries[count++] =
+        v[1] > v[0]
+            ? (otx_sparse_entry){v[1], v[0], -w * cos(angle), -w * sin(angle)}
+            : (otx_sparse_entry){v[0], v[1], -w * cos(angle), w * sin(angle)};
+    return count;
+}
+
 static otx_status
 factor(solver *s, int axis, otx_arena *arena, otx_sparse **out)
 {
     const otx_level *level = s->c->level;
-    const int64_t edges = level->edge_count, verts = level->vert_count;
+    const int64_t edges = level->edge_count;
+    const int64_t size = (s->one_sense ? 1 : 2) * (int64_t)level->vert_count;
     otx_sparse_entry *entries =
-        OTX_NEW(arena, otx_sparse_entry, 8 * edges + 2 * verts);
+        OTX_NEW(arena, otx_sparse_entry, 8 * edges + size);
     int64_t count = 0;
 
     if (!entries)
         return OSDTEX_ERROR_MEMORY;
     for (int32_t e = 0; e < edges; ++e)
     {
-        const double w = edge_weight(s->c, e);
-        int32_t at[2], v[2];
+        int32_t at[2];
 
         edge_corners(s->c, e, at);
-        for (int k = 0; k < 2; ++k)
-        {
-            v[k] = level->face_verts[at[k]];
-            for (int32_t p = 0; p < 2; ++p)
-                entries[count++] =
-                    (otx_sparse_entry){2 * v[k] + p, 2 * v[k] + p, w, 0.0};
-        }
-        count += add_block(
-            v[1], v[0], w, 2.0 * OTX_PI * s->wish[axis][e], s->sense[at[1]],
-            s->sense[at[0]], entries + count);
+        count += add_edge(
+            s, axis, e,
+            (const int32_t[2]){
+                level->face_verts[at[0]], level->face_verts[at[1]]},
+            (const int[2]){s->sense[at[0]], s->sense[at[1]]}, entries + count);
     }
-    for (int32_t i = 0; i < 2 * verts; ++i)
-        entries[count++] =
-            (otx_sparse_entry){i, i, s->tau * s->mass[i / 2], 0.0};
+    for (int32_t i = 0; i < size; ++i)
+        entries[count++] = (otx_sparse_entry){
+            i, i, s->tau * s->mass[s->one_sense ? i : i / 2], 0.0};
     return otx_sparse_factor(
-        arena, OTX_SPARSE_REAL, (int32_t)(2 * verts), entries, count, out);
+        arena, s->one_sense ? OTX_SPARSE_COMPLEX : OTX_SPARSE_REAL,
+        (int32_t)size, entries, count, out);
 }
 
 static void
@@ -300,7 +376,7 @@ solve_axis(void *context, int64_t axis, otx_worker *worker)
     OTX_TRY(factor(s, (int)axis, worker->scratch, &lhs));
     for (int32_t i = 0; i < size; ++i)
     {
-        mass[i] = s->mass[i / 2];
+        mass[i] = s->mass[s->one_sense ? i % (size / 2) : i / 2];
         z[i] = i % 2 == 0 ? 1.0 : 0.0;
     }
     OTX_TRY(otx_sparse_smallest(lhs, mass, EIGEN_ROUNDS, z));
@@ -308,7 +384,7 @@ solve_axis(void *context, int64_t axis, otx_worker *worker)
     {
         normalise(s, z);
         for (int32_t i = 0; i < size; ++i)
-            z[i] *= s->tau * mass[i];
+            z[i] *= s->tau * s->mass[i / 2];
         OTX_TRY(otx_sparse_solve(lhs, z, z));
     }
     read_steps(s, (int)axis);
@@ -445,7 +521,7 @@ solve(solver *s)
 
     OTX_TRY(allocate(s));
     measure(s);
-    choose_senses(s);
+    OTX_TRY(choose_senses(s));
     status = otx_pool_for(s->run->pool, 2, solve_axis, s);
     if (status == OSDTEX_ERROR_MEMORY)
         return otx_fail_memory(s->run, "field");
