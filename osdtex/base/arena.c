@@ -8,12 +8,14 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 enum
 {
     ALIGNMENT = 64,
     FIRST_BLOCK_BYTES = 4096,
-    LAST_BLOCK_BYTES = 1 << 20
+    LAST_BLOCK_BYTES = 1 << 20,
+    LARGE_PAGE_BYTES = 1 << 21
 };
 
 struct otx_heap
@@ -83,6 +85,40 @@ reserve(otx_heap *heap, size_t bytes)
     return true;
 }
 
+/* Asks for large pages: the first touch of small ones is a quarter of the time
+ * of refinement. It is advice, and may come to nothing. */
+#ifdef MADV_HUGEPAGE
+static void
+advise_large_pages(void *block, size_t bytes)
+{
+    const uintptr_t mask = LARGE_PAGE_BYTES - 1;
+    const uintptr_t first = ((uintptr_t)block + mask) & ~mask;
+    const uintptr_t end = ((uintptr_t)block + bytes) & ~mask;
+
+    if (end > first)
+        (void)madvise(
+            (char *)block + (first - (uintptr_t)block), end - first,
+            MADV_HUGEPAGE);
+}
+#else
+static void
+advise_large_pages(void *block, size_t bytes)
+{
+    (void)block;
+    (void)bytes;
+}
+#endif
+
+static void *
+plain_alloc(size_t bytes)
+{
+    void *block = malloc(bytes);
+
+    if (block && bytes >= 2 * (size_t)LARGE_PAGE_BYTES)
+        advise_large_pages(block, bytes);
+    return block;
+}
+
 void *
 otx_heap_alloc(otx_heap *heap, size_t bytes)
 {
@@ -91,7 +127,7 @@ otx_heap_alloc(otx_heap *heap, size_t bytes)
     if (!reserve(heap, bytes))
         return NULL;
     block = heap->hooks.alloc ? heap->hooks.alloc(heap->hooks.user, bytes)
-                              : malloc(bytes);
+                              : plain_alloc(bytes);
     if (!block)
         atomic_fetch_sub(&heap->used, bytes);
     return block;
