@@ -32,10 +32,10 @@ otx_guide_from_field(
 otx_status
 otx_guide_make(
     otx_run *run, const otx_surface *surface, const otx_analysis *analysis,
-    const otx_direction_request *request, otx_guide *out)
+    const otx_constraint_set *constraints, otx_guide *out)
 {
-    otx_direction_request asked =
-        request ? *request : (otx_direction_request){0};
+    otx_direction_request asked = {
+        .symmetry = analysis->symmetry > 0 ? analysis->symmetry : 1};
     otx_connection *connection = OTX_NEW(run->arena, otx_connection, 1);
     int32_t level = surface->level_count - 1;
     otx_direction field;
@@ -44,8 +44,8 @@ otx_guide_make(
         return otx_fail_memory(run, "field");
     while (level > 0 && surface->levels[level].face_count > FACES_MAX)
         --level;
-    asked.symmetry = analysis->symmetry > 0 ? analysis->symmetry : 1;
     OTX_TRY(otx_connection_build(run, surface, level, connection));
+    OTX_TRY(otx_constraint_pins(run, constraints, connection, &asked));
     OTX_TRY(otx_direction_solve(run, connection, &asked, &field));
     return otx_guide_from_field(run, &field, analysis->angle, out);
 }

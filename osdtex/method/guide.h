@@ -5,7 +5,7 @@
 #ifndef OTX_METHOD_GUIDE_H
 #define OTX_METHOD_GUIDE_H
 
-#include "field/direction.h"
+#include "field/constraint.h"
 #include "image/analysis.h"
 
 typedef struct otx_guide
@@ -15,12 +15,12 @@ typedef struct otx_guide
     double angle;               /* of the exemplar's direction, radians */
 } otx_guide;
 
-/* Solves for the smoothest field of the exemplar's symmetry, or the one that
- * `request` asks for (NULL: the smoothest; its symmetry is not read). Works on
- * a level of moderate size; leaves inherit. In run->arena. */
+/* Solves for the field that `constraints` ask for (NULL: the smoothest), of
+ * the exemplar's symmetry. Works on a level of moderate size; leaves inherit.
+ * In run->arena. */
 otx_status otx_guide_make(
     otx_run *run, const otx_surface *surface, const otx_analysis *analysis,
-    const otx_direction_request *request, otx_guide *out);
+    const otx_constraint_set *constraints, otx_guide *out);
 
 /* Hands the field of a coarser level to the leaves. */
 otx_status otx_guide_from_field(

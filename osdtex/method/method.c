@@ -122,3 +122,40 @@ otx_method_fill(
     return method->fill(
         run, surface, exemplar, request, settings, given, out, stats);
 }
+
+/* Fewest lattice cells that a surface shows when they are laid over it as a
+ * whole: on fewer, defects are everywhere. */
+static const double CELLS_MIN = 60.0;
+
+otx_status
+otx_method_choose(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_map_request *request, const otx_method **out)
+{
+    const double texels = exemplar->match.width / request->scale;
+    const otx_method *lattice = otx_method_find("material");
+    otx_analysis a;
+    double cells = 0.0;
+
+    if (request->analysis)
+        a = *request->analysis;
+    else
+        OTX_TRY(otx_analysis_run(
+            run, &exemplar->lab, exemplar->wrap_x, exemplar->wrap_y, &a));
+    if (a.kind == OTX_ANALYSIS_LATTICE)
+        cells = surface->area * texels * texels /
+                otx_vec2_cross(a.generators[0], a.generators[1]);
+    *out = lattice && cells >= CELLS_MIN ? lattice : otx_method_at(0);
+    if (a.kind == OTX_ANALYSIS_LATTICE)
+        otx_note(
+            run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
+            "method %s: the exemplar is a lattice and the surface has room "
+            "for %.0f of its cells, of %.0f that are needed at least",
+            (*out)->name, cells, CELLS_MIN);
+    else
+        otx_note(
+            run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
+            "method %s: the exemplar is %s", (*out)->name,
+            otx_analysis_name(a.kind));
+    return OSDTEX_OK;
+}

@@ -50,6 +50,7 @@ typedef struct otx_map_request
     double first_angle;      /* radians */
     /* What the exemplar is taken for; NULL: it is analysed where needed. */
     const otx_analysis *analysis;
+    const otx_constraint_set *constraints; /* on fields; NULL none */
     const otx_guide *guide; /* that patches follow; NULL: the method's choice */
 } otx_map_request;
 
@@ -86,6 +87,12 @@ int32_t otx_method_count(void);
 const otx_method *otx_method_at(int32_t index);
 /* NULL when there is none of that name. */
 const otx_method *otx_method_find(const char *name);
+
+/* The method for an exemplar and a surface: material for lattices that the
+ * surface has room for, else patches. Says why in one finding. */
+otx_status otx_method_choose(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_map_request *request, const otx_method **out);
 
 /* Covers what is not given by the first method of the table that can, with
  * its defaults. SUPPORT when none can. */

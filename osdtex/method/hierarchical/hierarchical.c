@@ -250,12 +250,47 @@ fill(
     return otx_assemble(m, out);
 }
 
+/* A field for patches to follow, where the exemplar has a direction. */
+static otx_status
+make_guide(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_hierarchical_settings *settings, otx_map_request *request,
+    otx_guide *guide)
+{
+    otx_analysis a;
+
+    if (request->guide || settings->guide != OTX_HIERARCHICAL_AUTO ||
+        settings->mode == OTX_HIERARCHICAL_PAPER)
+        return OSDTEX_OK;
+    if (request->analysis)
+        a = *request->analysis;
+    else
+        OTX_TRY(otx_analysis_run(
+            run, &exemplar->lab, exemplar->wrap_x, exemplar->wrap_y, &a));
+    if (a.kind == OTX_ANALYSIS_ISOTROPIC)
+        return OSDTEX_OK;
+    otx_note(
+        run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
+        "the exemplar is %s, at %.0f degrees: patches follow a field of "
+        "symmetry %d",
+        otx_analysis_name(a.kind), a.angle * 180.0 / OTX_PI, (int)a.symmetry);
+    request->guide = guide;
+    return otx_guide_make(run, surface, &a, request->constraints, guide);
+}
+
 static otx_status
 map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     const otx_map_request *request, const void *settings, otx_mapping *out,
     otx_map_stats *stats)
 {
-    return fill(run, surface, exemplar, request, settings, NULL, out, stats);
+    otx_map_request *guided = OTX_NEW(run->arena, otx_map_request, 1);
+    otx_guide *guide = OTX_NEW(run->arena, otx_guide, 1);
+
+    if (!guided || !guide)
+        return otx_fail_memory(run, "map");
+    *guided = *request;
+    OTX_TRY(make_guide(run, surface, exemplar, settings, guided, guide));
+    return fill(run, surface, exemplar, guided, settings, NULL, out, stats);
 }
 
 const otx_method otx_method_hierarchical = {

@@ -56,12 +56,13 @@ typedef struct otx_hierarchical_settings
     int32_t relax;
     int32_t relax_rounds;
     double stiffness;
+    int32_t guide;
 } otx_hierarchical_settings;
 
 extern const otx_option otx_hierarchical_options[];
 enum
 {
-    OTX_HIERARCHICAL_OPTION_COUNT = 19
+    OTX_HIERARCHICAL_OPTION_COUNT = 20
 };
 
 /* Replaces every "auto" by what it means for this mode and exemplar. */

@@ -13,6 +13,7 @@ static const char *const CLUSTERS[] = {"auto", "grown", "subdivision", NULL};
 static const char *const FLATTEN[] = {"auto", "joint", "recursive", NULL};
 static const char *const CONTINUATION[] = {"avoid", "allow", NULL};
 static const char *const AUTO_OFF_ON[] = {"auto", "off", "on", NULL};
+static const char *const GUIDE[] = {"auto", "off", NULL};
 static const char *const RELAX[] = {"auto", "off", "loop", "global", NULL};
 
 const otx_option otx_hierarchical_options[] = {
@@ -70,6 +71,9 @@ const otx_option otx_hierarchical_options[] = {
     {"stiffness", OTX_OPTION_REAL, FIELD(stiffness), 1e-3, 100, 0.3, NULL,
      "How strongly the global relaxation resists stretch, against colour "
      "difference across seams"},
+    {"guide", OTX_OPTION_CHOICE, FIELD(guide), 0, 0, 0, GUIDE,
+     "auto: patches of an exemplar that has a direction follow a direction "
+     "field on the surface, in mode best; off: none do"},
 };
 
 _Static_assert(

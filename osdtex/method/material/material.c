@@ -46,7 +46,7 @@ static otx_status
 solve_field(otx_material *m)
 {
     const int32_t asked = m->settings->symmetry;
-    const otx_direction_request request = {
+    otx_direction_request request = {
         .symmetry = asked != 0                  ? asked
                     : m->analysis.symmetry >= 2 ? 2
                                                 : 1,
@@ -54,9 +54,15 @@ solve_field(otx_material *m)
 
     m->level = choose_level(m);
     OTX_TRY(otx_connection_build(m->run, m->surface, m->level, &m->connection));
+    OTX_TRY(otx_constraint_pins(
+        m->run, m->request->constraints, &m->connection, &request));
+    if (request.symmetry == 4)
+        request.symmetry = 2; /* coordinates do not change places */
     OTX_TRY(otx_direction_solve(m->run, &m->connection, &request, &m->field));
-    return otx_scale_solve(
-        m->run, &m->field, m->settings->octaves * log(2.0), &m->log_scale);
+    OTX_TRY(otx_scale_solve(
+        m->run, &m->field, m->settings->octaves * log(2.0), &m->log_scale));
+    return otx_constraint_scale(
+        m->run, m->request->constraints, &m->connection, m->log_scale);
 }
 
 /* Cells along and across the field: rows of the inverse of the generators,

@@ -1,0 +1,55 @@
+/* constraint.h -- what the artist asks of the fields on a surface.
+ *
+ * Constraints are tied to the cage, by face or by a point near the surface, so
+ * that they hold at every level. The file format is described in
+ * docs/formats-constraints.md; reading it is the file room's. */
+#ifndef OTX_FIELD_CONSTRAINT_H
+#define OTX_FIELD_CONSTRAINT_H
+
+#include "field/direction.h"
+#include "field/scale.h"
+
+/* At a face of the cage (all of it), or around a point. */
+typedef struct otx_constraint
+{
+    int32_t face;   /* of the cage; -1: at the point */
+    otx_vec3 point; /* scene units */
+    double radius;  /* around the point; at least the nearest face is held */
+    bool has_direction;
+    otx_vec3 direction;
+    double scale; /* factor on the texture's size; 0 says nothing */
+} otx_constraint;
+
+typedef struct otx_constraint_set
+{
+    const char *path;   /* for messages; NULL none */
+    int32_t symmetry;   /* 1, 2, 4; 0: the exemplar's */
+    otx_vec3 axis;      /* attracts all faces; zero none */
+    double axis_length; /* over which it gives way, scene units; 0: a twentieth
+                         * of the diagonal */
+    int32_t count;
+    const otx_constraint *items;
+} otx_constraint_set;
+
+/* Turns constraints into pins on the faces of a level, in run->arena. `set`
+ * may be NULL. ARGUMENT, naming the constraint, for what cannot be held: a
+ * face that is not there or a hole, no finite numbers, a direction upright on
+ * the surface. */
+otx_status otx_constraint_pins(
+    otx_run *run, const otx_constraint_set *set,
+    const otx_connection *connection, otx_direction_request *out);
+
+/* Adds -ln of the asked scale factors, smoothly interpolated, to `log_scale`
+ * ([vert_count]). */
+otx_status otx_constraint_scale(
+    otx_run *run, const otx_constraint_set *set,
+    const otx_connection *connection, double *log_scale);
+
+/* The area in which an edit takes effect [Ray09, sec. 2.1]: faces nearest to
+ * the constraint first, up to `radius` scene units along the surface; 1 each,
+ * [face_count] in run->arena. INFINITY: the whole component. */
+otx_status otx_constraint_effect(
+    otx_run *run, const otx_connection *connection,
+    const otx_constraint *constraint, double radius, uint8_t **out);
+
+#endif
