@@ -52,7 +52,13 @@ make_scene(int32_t threads, bool wrap, otx_vec2 off)
     s->surface = test_grid_create(run->arena, SIDE, SIDE, 1.0);
     s->exemplar = test_exemplar_create(run->arena, 128, 128, wrap, 5);
     draw_waves(s->exemplar);
-    s->options = (otx_elastic_options){DENSITY, 12, 3, 0.3, 1.6};
+    s->options = (otx_elastic_options){
+        .texels = DENSITY,
+        .rounds = 12,
+        .levels = 3,
+        .stiffness = 0.3,
+        .stretch = 1.6,
+    };
     leaf = otx_surface_leaf(s->surface);
     for (int32_t c = 0; c < CORNERS; ++c)
     {
