@@ -24,7 +24,7 @@ otx_strip_sizes
 otx_tileset_sizes(const otx_tile_layout *layout)
 {
     const int32_t side = otx_tile_layout_side(layout);
-    const int32_t core = layout->gutter + RAY, sew = core + side / 12;
+    const int32_t core = layout->gutter + RAY, sew = core + side / 20;
     const int32_t reach = side / 4;
 
     return (otx_strip_sizes){
