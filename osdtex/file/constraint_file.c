@@ -1,0 +1,312 @@
+/* constraint_file.c -- constraints on fields, as JSON or CSV. */
+#include "file/constraint_file.h"
+
+#include "bridge/charconv.h"
+#include "file/text.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <string.h>
+
+static const char stage[] = "constraints";
+
+enum
+{
+    BYTES_MAX = 64 << 20
+};
+
+static otx_status
+refuse(
+    otx_run *run, const char *path, int32_t index, const char *key,
+    const char *what)
+{
+    const otx_where where = {path, 0, -1, -1};
+
+    if (index < 0)
+        return otx_fail(
+            run, OSDTEX_ERROR_FORMAT, stage, where, "\"%.40s\" %s", key, what);
+    return otx_fail(
+        run, OSDTEX_ERROR_FORMAT, stage, where, "constraint %d: \"%.40s\" %s",
+        (int)index + 1, key, what);
+}
+
+/* -- JSON ---------------------------------------------------------------- */
+
+static bool
+read_vector(const json_t *value, double out[3])
+{
+    if (!json_is_array(value) || json_array_size(value) != 3)
+        return false;
+    for (size_t i = 0; i < 3; ++i)
+    {
+        const json_t *number = json_array_get(value, i);
+
+        out[i] = json_number_value(number);
+        if (!json_is_number(number) || !isfinite(out[i]))
+            return false;
+    }
+    return true;
+}
+
+static bool
+read_positive(const json_t *value, double *out)
+{
+    *out = json_number_value(value);
+    return json_is_number(value) && *out > 0.0 && isfinite(*out);
+}
+
+static bool
+read_face(const json_t *value, int32_t *out)
+{
+    const json_int_t face = json_integer_value(value);
+
+    *out = (int32_t)face;
+    return json_is_integer(value) && face >= 0 && face < INT32_MAX;
+}
+
+static otx_status
+read_item(
+    otx_run *run, const char *path, int32_t index, json_t *item,
+    otx_constraint_line *out)
+{
+    const char *key;
+    json_t *value;
+    bool has_point = false;
+
+    *out = (otx_constraint_line){.face = -1};
+    if (!json_is_object(item))
+        return refuse(run, path, index, "constraints", "holds objects");
+    json_object_foreach(item, key, value)
+    {
+        if (strcmp(key, "face") == 0)
+        {
+            if (!read_face(value, &out->face))
+                return refuse(
+                    run, path, index, key, "is a face of the cage, from 0");
+        }
+        else if (strcmp(key, "point") == 0)
+        {
+            has_point = true;
+            if (!read_vector(value, out->point))
+                return refuse(run, path, index, key, "is three numbers");
+        }
+        else if (strcmp(key, "direction") == 0)
+        {
+            out->has_direction = true;
+            if (!read_vector(value, out->direction))
+                return refuse(run, path, index, key, "is three numbers");
+        }
+        else if (strcmp(key, "radius") == 0)
+        {
+            if (!read_positive(value, &out->radius))
+                return refuse(run, path, index, key, "is a positive number");
+        }
+        else if (strcmp(key, "scale") == 0)
+        {
+            if (!read_positive(value, &out->scale))
+                return refuse(run, path, index, key, "is a positive number");
+        }
+        else
+            return refuse(
+                run, path, index, key,
+                "is not known; there are face, point, radius, direction and "
+                "scale");
+    }
+    if ((out->face >= 0) == has_point)
+        return refuse(run, path, index, "face", "or \"point\" is needed, one");
+    if (!out->has_direction && out->scale == 0.0)
+        return refuse(run, path, index, "direction", "or \"scale\" is needed");
+    return OSDTEX_OK;
+}
+
+static otx_status
+read_items(otx_run *run, json_t *list, otx_constraint_file *out)
+{
+    const size_t count = json_array_size(list);
+
+    if (!json_is_array(list))
+        return refuse(run, out->path, -1, "constraints", "is a list");
+    out->lines = OTX_NEW(run->arena, otx_constraint_line, count);
+    if (!out->lines)
+        return otx_fail_memory(run, stage);
+    for (; out->count < (int32_t)count; ++out->count)
+        OTX_TRY(read_item(
+            run, out->path, out->count,
+            json_array_get(list, (size_t)out->count), &out->lines[out->count]));
+    return OSDTEX_OK;
+}
+
+static otx_status
+read_root(otx_run *run, json_t *root, otx_constraint_file *out)
+{
+    const char *key;
+    json_t *value;
+
+    if (!json_is_object(root))
+        return refuse(
+            run, out->path, -1, "constraints", "must be in an object");
+    json_object_foreach(root, key, value)
+    {
+        if (strcmp(key, "constraints") == 0)
+            OTX_TRY(read_items(run, value, out));
+        else if (strcmp(key, "axis") == 0)
+        {
+            if (!read_vector(value, out->axis))
+                return refuse(run, out->path, -1, key, "is three numbers");
+        }
+        else if (strcmp(key, "axis-length") == 0)
+        {
+            if (!read_positive(value, &out->axis_length))
+                return refuse(run, out->path, -1, key, "is a positive number");
+        }
+        else if (strcmp(key, "symmetry") == 0)
+        {
+            const json_int_t s = json_integer_value(value);
+
+            if (s != 1 && s != 2 && s != 4)
+                return refuse(run, out->path, -1, key, "is 1, 2 or 4");
+            out->symmetry = (int32_t)s;
+        }
+        else
+            return refuse(
+                run, out->path, -1, key,
+                "is not known; there are symmetry, axis, axis-length and "
+                "constraints");
+    }
+    return OSDTEX_OK;
+}
+
+static void
+drop(void *root)
+{
+    json_decref(root);
+}
+
+static otx_status
+read_json(otx_run *run, const otx_text *text, otx_constraint_file *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    json_error_t error;
+    json_t *root = json_loadb(
+        text->bytes, (size_t)(text->end - text->bytes), JSON_REJECT_DUPLICATES,
+        &error);
+
+    if (!root)
+        return otx_fail(
+            run, OSDTEX_ERROR_FORMAT, stage,
+            (otx_where){out->path, error.line, -1, -1}, "no JSON: %.100s",
+            error.text);
+    if (!otx_arena_defer(run->scratch, drop, root))
+    {
+        json_decref(root);
+        return otx_fail_memory(run, stage);
+    }
+
+    const otx_status status = read_root(run, root, out);
+
+    otx_arena_release(run->scratch, mark);
+    return status;
+}
+
+/* -- CSV ----------------------------------------------------------------- */
+
+/* Numbers of one line, separated by commas; -1 when it is something else. */
+static int
+read_numbers(otx_token line, double *out, int capacity)
+{
+    const char *at = line.begin;
+    int count = 0;
+
+    for (;; ++at)
+    {
+        while (at < line.end && (*at == ' ' || *at == '\t'))
+            ++at;
+        if (count == capacity ||
+            otx_charconv_read_double(at, line.end, &out[count], &at) !=
+                OTX_CHARCONV_OK)
+            return -1;
+        ++count;
+        while (at < line.end && (*at == ' ' || *at == '\t'))
+            ++at;
+        if (at == line.end)
+            return count;
+        if (*at != ',')
+            return -1;
+    }
+}
+
+static otx_status
+read_row(
+    otx_run *run, const otx_text *text, const double *n, int count,
+    otx_constraint_line *out)
+{
+    if ((count != 4 && count != 5) || n[0] < 0.0 || n[0] >= INT32_MAX ||
+        n[0] != floor(n[0]) || !isfinite(n[1] + n[2] + n[3]) ||
+        (count == 5 && !(n[4] > 0.0 && isfinite(n[4]))))
+        return otx_fail(
+            run, OSDTEX_ERROR_FORMAT, stage, otx_text_where(text),
+            "a line is face,x,y,z or face,x,y,z,scale: a face of the cage from "
+            "0, a direction, and a positive factor");
+    *out = (otx_constraint_line){
+        .face = (int32_t)n[0],
+        .has_direction = n[1] != 0.0 || n[2] != 0.0 || n[3] != 0.0,
+        .direction = {n[1], n[2], n[3]},
+        .scale = count == 5 ? n[4] : 0.0};
+    return OSDTEX_OK;
+}
+
+/* The first line may name the columns. */
+static otx_status
+read_csv(otx_run *run, otx_text *text, otx_constraint_file *out)
+{
+    int32_t capacity = 0;
+    bool first = true;
+
+    while (otx_text_next(text))
+        ++capacity;
+    otx_text_rewind(text);
+    out->lines = OTX_NEW(run->arena, otx_constraint_line, capacity);
+    if (!out->lines)
+        return otx_fail_memory(run, stage);
+    while (otx_text_next(text))
+    {
+        const otx_token line = otx_text_remainder(text);
+        double numbers[5];
+        int count;
+
+        if (line.begin == line.end || *line.begin == '#')
+            continue;
+        count = read_numbers(line, numbers, 5);
+        if (count >= 0 || !first)
+            OTX_TRY(
+                read_row(run, text, numbers, count, &out->lines[out->count++]));
+        first = false;
+    }
+    return OSDTEX_OK;
+}
+
+static bool
+is_csv(const char *path)
+{
+    const size_t length = strlen(path);
+
+    return length > 4 && strcmp(path + length - 4, ".csv") == 0;
+}
+
+otx_status
+otx_constraint_file_read(
+    otx_run *run, const char *path, otx_constraint_file *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    otx_text text;
+    otx_status status;
+
+    *out = (otx_constraint_file){.path = otx_arena_strdup(run->arena, path)};
+    if (!out->path)
+        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_text_read(run, stage, path, BYTES_MAX, &text));
+    status =
+        is_csv(path) ? read_csv(run, &text, out) : read_json(run, &text, out);
+    otx_arena_release(run->scratch, mark);
+    return status;
+}
