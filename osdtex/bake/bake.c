@@ -146,10 +146,15 @@ bake_levels(
     j->page = &page;
     OTX_TRY(otx_page_find_rims(
         run, run->scratch, layout, tile, &page.rims, &page.rim_count));
+    if (bake->seam_blend > 0.0)
+        OTX_TRY(otx_page_find_seams(
+            run, run->scratch, layout, bake->source.mapping->face_patch, tile,
+            &page.seams, &page.seam_count));
     for (page.level = 0; page.level < levels; ++page.level)
     {
         const otx_arena_mark mark = otx_arena_here(run->scratch);
 
+        page.blend = 0.5 * bake->seam_blend * pow(0.5, page.level);
         OTX_TRY(otx_page_build(run, run->scratch, &page));
         OTX_TRY(bake_page(run, bake, j));
         otx_arena_release(run->scratch, mark);
@@ -174,6 +179,8 @@ otx_bake_create(
     const otx_layout *layout, const otx_bake_options *options, otx_bake *out)
 {
     *out = (otx_bake){
+        .seam_blend =
+            options->kind == OTX_TEXEL_COLOR ? options->seam_blend : 0.0,
         .source = {
             .mapping = mapping,
             .layout = layout,

@@ -21,11 +21,15 @@ typedef struct otx_bake_sink
 typedef struct otx_bake_options
 {
     otx_texel_kind kind;
+    /* Texels of level 0 across which patches are blended where they meet, half
+     * of them on either side; 0: not at all. */
+    double seam_blend;
 } otx_bake_options;
 
 typedef struct otx_bake
 {
     otx_texel_source source;
+    double seam_blend;
     int64_t overlaps; /* samples of level 0 that several faces claim */
 } otx_bake;
 

@@ -39,11 +39,34 @@ has_area(const otx_layout *layout, int32_t face, int32_t edge)
     return fabs(area2) > 0.0;
 }
 
-otx_status
-otx_page_find_rims(
-    otx_run *run, otx_arena *arena, const otx_layout *layout, int32_t tile,
-    const otx_page_rim **rims, int32_t *count)
+/* Which edges are listed. */
+typedef struct choice
 {
+    const otx_layout *layout;
+    const int32_t *face_patch; /* NULL: the rims */
+} choice;
+
+static bool
+is_listed(const choice *c, int32_t face, int32_t k)
+{
+    const otx_level *leaf = otx_surface_leaf(c->layout->surface);
+    const int32_t other = otx_level_neighbour(leaf, face, k);
+
+    if (!has_area(c->layout, face, k))
+        return false;
+    if (!c->face_patch)
+        return c->layout->rim[leaf->face_first[face] + k];
+    return other >= 0 && c->layout->covered[other] &&
+           c->face_patch[other] != c->face_patch[face];
+}
+
+/* Lists the edges of a tile: [*count] in `arena`. */
+static otx_status
+list_edges(
+    otx_run *run, otx_arena *arena, const choice *c, int32_t tile,
+    const otx_page_rim **edges, int32_t *count)
+{
+    const otx_layout *layout = c->layout;
     const otx_level *leaf = otx_surface_leaf(layout->surface);
     otx_page_rim *out = NULL;
 
@@ -59,8 +82,7 @@ otx_page_find_rims(
 
             for (int32_t k = 0; k < otx_level_face_size(leaf, f); ++k)
             {
-                if (!layout->rim[leaf->face_first[f] + k] ||
-                    !has_area(layout, f, k))
+                if (!is_listed(c, f, k))
                     continue;
                 if (out)
                     out[n] = (otx_page_rim){f, k};
@@ -73,8 +95,29 @@ otx_page_find_rims(
         if (!out)
             return otx_fail_memory(run, STAGE);
     }
-    *rims = out;
+    *edges = out;
     return OSDTEX_OK;
+}
+
+otx_status
+otx_page_find_rims(
+    otx_run *run, otx_arena *arena, const otx_layout *layout, int32_t tile,
+    const otx_page_rim **rims, int32_t *count)
+{
+    const choice rim = {layout, NULL};
+
+    return list_edges(run, arena, &rim, tile, rims, count);
+}
+
+otx_status
+otx_page_find_seams(
+    otx_run *run, otx_arena *arena, const otx_layout *layout,
+    const int32_t *face_patch, int32_t tile, const otx_page_rim **seams,
+    int32_t *count)
+{
+    const choice seam = {layout, face_patch};
+
+    return list_edges(run, arena, &seam, tile, seams, count);
 }
 
 /* ---- blocks ---------------------------------------------------------------
@@ -125,20 +168,30 @@ box_of_face(const void *context, int32_t index)
 }
 
 static otx_bin_box
+box_of_edge(const otx_page *page, const otx_page_rim *rim, double r)
+{
+    otx_vec2 p[2];
+
+    otx_page_ends(page, rim, p);
+    return box_of(
+        page, (otx_vec2){fmin(p[0].x, p[1].x) - r, fmin(p[0].y, p[1].y) - r},
+        (otx_vec2){fmax(p[0].x, p[1].x) + r, fmax(p[0].y, p[1].y) + r});
+}
+
+static otx_bin_box
 box_of_rim(const void *context, int32_t index)
 {
     const otx_page *page = context;
-    int32_t corners[2];
 
-    otx_page_ends(page, index, corners);
+    return box_of_edge(page, &page->rims[index], page->gutter);
+}
 
-    const otx_vec2 a = otx_page_texel(page, corners[0]);
-    const otx_vec2 b = otx_page_texel(page, corners[1]);
-    const double r = page->gutter;
+static otx_bin_box
+box_of_seam(const void *context, int32_t index)
+{
+    const otx_page *page = context;
 
-    return box_of(
-        page, (otx_vec2){fmin(a.x, b.x) - r, fmin(a.y, b.y) - r},
-        (otx_vec2){fmax(a.x, b.x) + r, fmax(a.y, b.y) + r});
+    return box_of_edge(page, &page->seams[index], page->blend);
 }
 
 /* Hands a rim from blocks that have some to those that have none, ring by
@@ -200,5 +253,8 @@ otx_page_build(otx_run *run, otx_arena *arena, otx_page *page)
     OTX_TRY(otx_bin_build(
         run, arena, page->columns, page->columns, page->rim_count, box_of_rim,
         page, &page->near_rims));
+    OTX_TRY(otx_bin_build(
+        run, arena, page->columns, page->columns, page->seam_count, box_of_seam,
+        page, &page->near_seams));
     return spread_rims(run, arena, page);
 }

@@ -15,7 +15,7 @@ enum
     OTX_PAGE_BLOCK = 64 /* texels, that of the files */
 };
 
-/* An edge of a chart that the texture ends at. */
+/* An edge that the texture ends at, or where patches meet. */
 typedef struct otx_page_rim
 {
     int32_t face;
@@ -32,8 +32,12 @@ typedef struct otx_page
     int32_t gutter;  /* texels that are continued beyond rims */
     const otx_page_rim *rims;
     int32_t rim_count;
+    const otx_page_rim *seams; /* where patches meet; none: not blended */
+    int32_t seam_count;
+    double blend;           /* texels to either side of a seam */
     otx_bin faces;          /* items: index into the tile's faces */
     otx_bin near_rims;      /* items: index into rims, gutter included */
+    otx_bin near_seams;     /* items: index into seams, blend included */
     const int32_t *far_rim; /* [columns * columns] a rim not far from there */
 } otx_page;
 
@@ -42,8 +46,15 @@ otx_status otx_page_find_rims(
     otx_run *run, otx_arena *arena, const otx_layout *layout, int32_t tile,
     const otx_page_rim **rims, int32_t *count);
 
-/* Fills all from `layout`, `tile`, `level` and the rims of `page` on, in
- * `arena`. Rows of blocks count from the TOP, as in files. MEMORY. */
+/* Lists the edges of a tile's faces across which the patch is another. */
+otx_status otx_page_find_seams(
+    otx_run *run, otx_arena *arena, const otx_layout *layout,
+    const int32_t *face_patch, int32_t tile, const otx_page_rim **seams,
+    int32_t *count);
+
+/* Fills all from `layout`, `tile`, `level`, the rims, the seams and the blend
+ * of `page` on, in `arena`. Rows of blocks count from the TOP, as in files.
+ * MEMORY. */
 otx_status otx_page_build(otx_run *run, otx_arena *arena, otx_page *page);
 
 /* A corner of a leaf face, in texels of the page. */
@@ -58,18 +69,17 @@ otx_page_texel(const otx_page *page, int32_t corner)
         ((double)uv[1] - otx_layout_row(number)) * page->side};
 }
 
-/* The corners at the ends of a rim. */
+/* The ends of an edge, in texels of the page. */
 static inline void
-otx_page_ends(const otx_page *page, int32_t rim, int32_t corners[2])
+otx_page_ends(const otx_page *page, const otx_page_rim *rim, otx_vec2 ends[2])
 {
     const otx_level *leaf = otx_surface_leaf(page->layout->surface);
-    const otx_page_rim *r = &page->rims[rim];
-    const int32_t first = leaf->face_first[r->face];
+    const int32_t first = leaf->face_first[rim->face];
+    const int32_t size = otx_level_face_size(leaf, rim->face);
 
-    corners[0] = first + r->edge;
-    corners[1] =
-        first +
-        (r->edge + 1 == otx_level_face_size(leaf, r->face) ? 0 : r->edge + 1);
+    ends[0] = otx_page_texel(page, first + rim->edge);
+    ends[1] = otx_page_texel(
+        page, first + (rim->edge + 1 == size ? 0 : rim->edge + 1));
 }
 
 #endif

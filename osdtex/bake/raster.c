@@ -14,13 +14,22 @@ otx_raster_begin(otx_arena *arena, otx_raster *raster)
     const size_t samples = texels * (size_t)raster->n * (size_t)raster->n;
 
     raster->facets = OTX_NEW(arena, int64_t, samples);
-    raster->near_rim = OTX_NEW(arena, int32_t, texels);
-    raster->rim_distance = OTX_NEW(arena, float, texels);
-    if (!raster->facets || !raster->near_rim || !raster->rim_distance)
-        return false;
-    memset(raster->facets, -1, samples * sizeof *raster->facets);
-    memset(raster->near_rim, -1, texels * sizeof *raster->near_rim);
-    return true;
+    if (raster->facets)
+        memset(raster->facets, -1, samples * sizeof *raster->facets);
+    return raster->facets;
+}
+
+bool
+otx_raster_near_begin(
+    otx_arena *arena, const otx_raster *raster, otx_raster_near *near)
+{
+    const size_t texels = (size_t)raster->width * (size_t)raster->height;
+
+    near->edges = OTX_NEW(arena, int32_t, texels);
+    near->distance = OTX_NEW(arena, float, texels);
+    if (near->edges)
+        memset(near->edges, -1, texels * sizeof *near->edges);
+    return near->edges && near->distance;
 }
 
 /* One barycentric coordinate over the samples: c + x i + y j. */
@@ -136,10 +145,12 @@ otx_raster_nearest(otx_vec2 a, otx_vec2 b, otx_vec2 p)
 }
 
 void
-otx_raster_rim(
-    otx_raster *raster, otx_vec2 a, otx_vec2 b, double radius, int32_t rim)
+otx_raster_edge(
+    const otx_raster *raster, const otx_vec2 p[2], double radius, int32_t edge,
+    otx_raster_near *near)
 {
     const double dx = raster->origin.x + 0.5, dy = raster->origin.y + 0.5;
+    const otx_vec2 a = p[0], b = p[1];
     int32_t x_first, x_end, y, y_end;
 
     cut(fmin(a.x, b.x) - radius - dx, fmax(a.x, b.x) + radius - dx,
@@ -150,15 +161,15 @@ otx_raster_rim(
         for (int32_t x = x_first; x < x_end; ++x)
         {
             const size_t i = (size_t)y * (size_t)raster->width + (size_t)x;
-            const otx_vec2 p = otx_raster_texel(raster, x, y);
+            const otx_vec2 at = otx_raster_texel(raster, x, y);
             const otx_vec2 d = otx_vec2_sub(
-                p, otx_vec2_lerp(a, b, otx_raster_nearest(a, b, p)));
+                at, otx_vec2_lerp(a, b, otx_raster_nearest(a, b, at)));
             const float sq = (float)otx_vec2_dot(d, d);
 
             if (sq > radius * radius ||
-                (raster->near_rim[i] >= 0 && raster->rim_distance[i] <= sq))
+                (near->edges[i] >= 0 && near->distance[i] <= sq))
                 continue;
-            raster->near_rim[i] = rim;
-            raster->rim_distance[i] = sq;
+            near->edges[i] = edge;
+            near->distance[i] = sq;
         }
 }

@@ -13,10 +13,15 @@ typedef struct otx_raster
     otx_vec2 origin;
     int32_t width, height;
     int32_t n;
-    int64_t *facets;     /* [samples], -1 none */
-    int32_t *near_rim;   /* [texels] nearest rim, -1 none */
-    float *rim_distance; /* [texels] squared, texels; where near_rim is set */
+    int64_t *facets; /* [samples], -1 none */
 } otx_raster;
+
+/* The edge nearest to each texel of a block, of those within a distance. */
+typedef struct otx_raster_near
+{
+    int32_t *edges;  /* [texels], -1 none */
+    float *distance; /* [texels] squared, texels; where there is one */
+} otx_raster_near;
 
 /* An empty block. False when memory is out. */
 bool otx_raster_begin(otx_arena *arena, otx_raster *raster);
@@ -31,10 +36,15 @@ bool otx_raster_begin(otx_arena *arena, otx_raster *raster);
 int32_t
 otx_raster_triangle(otx_raster *raster, const otx_vec2 p[3], int64_t id);
 
-/* Offers a rim from a to b as the nearest to the texels whose centre is within
- * `radius` texels of it. Of equally near ones the first holds. */
-void otx_raster_rim(
-    otx_raster *raster, otx_vec2 a, otx_vec2 b, double radius, int32_t rim);
+/* No edge near any texel. False when memory is out. */
+bool otx_raster_near_begin(
+    otx_arena *arena, const otx_raster *raster, otx_raster_near *near);
+
+/* Offers the edge from p[0] to p[1] as the nearest to the texels whose centre
+ * is within `radius` texels of it. Of equally near ones the first holds. */
+void otx_raster_edge(
+    const otx_raster *raster, const otx_vec2 p[2], double radius, int32_t edge,
+    otx_raster_near *near);
 
 /* The point of the segment a b nearest to p, as a fraction of the way. */
 double otx_raster_nearest(otx_vec2 a, otx_vec2 b, otx_vec2 p);

@@ -23,6 +23,7 @@ typedef struct block
     const otx_texel_source *source;
     const otx_page *page;
     otx_raster raster;
+    otx_raster_near near_rim, near_seam;
     otx_texel_piece *pieces; /* [PIECES], by hash of their id */
     const int32_t *rims;     /* [rim_count] near the block */
     int64_t rim_count;
@@ -146,24 +147,13 @@ walk_to(const block *b, const otx_texel_piece *piece, otx_vec2 texel)
 }
 
 static const otx_texel_piece *
-rim_piece(block *b, int32_t rim)
+rim_piece(block *b, const otx_page_rim *r)
 {
     const otx_level *leaf = otx_surface_leaf(b->source->layout->surface);
-    const otx_page_rim *r = &b->page->rims[rim];
     int32_t side;
     const otx_facet facet = otx_facet_at_edge(leaf, r->face, r->edge, &side);
 
     return piece_of(b, facet_id(facet.face, facet.index));
-}
-
-static void
-rim_ends(const block *b, int32_t rim, otx_vec2 ends[2])
-{
-    int32_t corners[2];
-
-    otx_page_ends(b->page, rim, corners);
-    for (int k = 0; k < 2; ++k)
-        ends[k] = otx_page_texel(b->page, corners[k]);
 }
 
 /* The point of a rim nearest to a texel position. */
@@ -172,9 +162,9 @@ place_on_rim(block *b, int32_t rim, otx_vec2 texel)
 {
     otx_vec2 ends[2];
 
-    rim_ends(b, rim, ends);
+    otx_page_ends(b->page, &b->page->rims[rim], ends);
     return place_at(
-        rim_piece(b, rim),
+        rim_piece(b, &b->page->rims[rim]),
         otx_vec2_lerp(
             ends[0], ends[1], otx_raster_nearest(ends[0], ends[1], texel)));
 }
@@ -389,6 +379,68 @@ texel_color(
         out[c] = (float)(sum[c] / samples);
 }
 
+/* ---- seams ----------------------------------------------------------------
+ */
+
+/* What the patch on the other side of a seam would show at a texel, had it
+ * gone on; false where the texel is of neither patch.
+ *
+ *   patch  of the texel
+ */
+static bool
+color_across(
+    block *b, const otx_page_rim *seam, int32_t patch, otx_vec2 at,
+    float *color)
+{
+    const otx_layout *layout = b->source->layout;
+    const otx_level *leaf = otx_surface_leaf(layout->surface);
+    const int32_t *patches = b->source->mapping->face_patch;
+    const int32_t other = otx_level_neighbour(leaf, seam->face, seam->edge);
+    otx_walk walk = place_at(rim_piece(b, seam), at);
+
+    if (patch == patches[seam->face])
+    {
+        const int32_t side = otx_facet_side(&walk.facet, seam->edge);
+
+        if (!otx_walk_cross(layout->surface, layout->covered, side, &walk))
+            return false;
+    }
+    else if (patch != patches[other])
+        return false;
+    color_at(b, &walk, 1.0, color);
+    return true;
+}
+
+/* Mixes a texel with what is across a seam `distance_sq` away: half and half
+ * on it, nothing at the end of the blend. */
+static void
+blend(
+    block *b, const otx_page_rim *seam, double distance_sq, int32_t patch,
+    otx_vec2 at, float *color)
+{
+    const double t = 0.5 * (1.0 - sqrt(distance_sq) / b->page->blend);
+    float across[OTX_IMAGE_MAX_CHANNELS];
+
+    if (!(t > 0.0) || !color_across(b, seam, patch, at, across))
+        return;
+    for (int32_t c = 0; c < b->source->channels; ++c)
+        color[c] = (float)((1.0 - t) * color[c] + t * across[c]);
+}
+
+/* Blends a texel on the surface. */
+static void
+blend_texel(block *b, int32_t x, int32_t y, int32_t first, float *color)
+{
+    const size_t i = (size_t)y * (size_t)b->raster.width + (size_t)x;
+    const int64_t id = sample_id(b, x, y, first);
+
+    if (b->near_seam.edges[i] >= 0)
+        blend(
+            b, &b->page->seams[b->near_seam.edges[i]], b->near_seam.distance[i],
+            b->source->mapping->face_patch[id >> 16],
+            otx_raster_texel(&b->raster, x, y), color);
+}
+
 /* Whether samples of a texel lie in different patches of one chart. */
 static bool
 has_seam(const block *b, int32_t x, int32_t y)
@@ -436,7 +488,7 @@ nearest_rim(const block *b, otx_vec2 texel)
     {
         otx_vec2 ends[2];
 
-        rim_ends(b, b->rims[i], ends);
+        otx_page_ends(b->page, &b->page->rims[b->rims[i]], ends);
 
         const otx_vec2 d = otx_vec2_sub(
             texel,
@@ -453,17 +505,35 @@ nearest_rim(const block *b, otx_vec2 texel)
     return best;
 }
 
+/* Blends a texel of a gutter, where the rim is a seam: it shows what is across,
+ * and gets its share of what this side would show. */
+static void
+blend_beyond(block *b, int32_t rim, int32_t x, int32_t y, float *color)
+{
+    const otx_level *leaf = otx_surface_leaf(b->source->layout->surface);
+    const otx_page_rim *r = &b->page->rims[rim];
+    const int32_t *patches = b->source->mapping->face_patch;
+    const int32_t other = otx_level_neighbour(leaf, r->face, r->edge);
+    const size_t i = (size_t)y * (size_t)b->raster.width + (size_t)x;
+
+    if (b->page->seam_count > 0 && other >= 0 &&
+        b->source->layout->covered[other] && patches[other] != patches[r->face])
+        blend(
+            b, r, b->near_rim.distance[i], patches[other],
+            otx_raster_texel(&b->raster, x, y), color);
+}
+
 static void
 beyond_color(block *b, int32_t x, int32_t y, int32_t *cells, float *out)
 {
     const otx_vec2 at = otx_raster_texel(&b->raster, x, y);
     const int32_t near =
-        b->raster.near_rim[(size_t)y * (size_t)b->raster.width + (size_t)x];
+        b->near_rim.edges[(size_t)y * (size_t)b->raster.width + (size_t)x];
     int32_t *cell = &cells[y / CELL * (OTX_PAGE_BLOCK / CELL) + x / CELL];
     otx_walk walk;
 
     if (near >= 0)
-        walk = walk_to(b, rim_piece(b, near), at);
+        walk = walk_to(b, rim_piece(b, &b->page->rims[near]), at);
     else
     {
         if (*cell == -2)
@@ -479,6 +549,8 @@ beyond_color(block *b, int32_t x, int32_t y, int32_t *cells, float *out)
         walk = place_on_rim(b, *cell, at);
     }
     color_at(b, &walk, 1.0, out);
+    if (near >= 0)
+        blend_beyond(b, near, x, y, out);
 }
 
 /* ---- blocks ---------------------------------------------------------------
@@ -527,9 +599,25 @@ draw_rims(block *b)
     {
         otx_vec2 ends[2];
 
-        rim_ends(b, b->rims[i], ends);
-        otx_raster_rim(
-            &b->raster, ends[0], ends[1], b->page->gutter, b->rims[i]);
+        otx_page_ends(b->page, &b->page->rims[b->rims[i]], ends);
+        otx_raster_edge(
+            &b->raster, ends, b->page->gutter, b->rims[i], &b->near_rim);
+    }
+}
+
+static void
+draw_seams(block *b, int64_t block_index)
+{
+    const otx_bin *bin = &b->page->near_seams;
+
+    for (int64_t i = bin->first[block_index]; i < bin->first[block_index + 1];
+         ++i)
+    {
+        otx_vec2 ends[2];
+
+        otx_page_ends(b->page, &b->page->seams[bin->items[i]], ends);
+        otx_raster_edge(
+            &b->raster, ends, b->page->blend, bin->items[i], &b->near_seam);
     }
 }
 
@@ -552,7 +640,10 @@ shade(block *b, float *pixels)
             if (chart < 0)
                 beyond_color(b, x, y, cells, out);
             else if (b->source->kind == OTX_TEXEL_COLOR)
+            {
                 texel_color(b, x, y, chart, first, out);
+                blend_texel(b, x, y, first, out);
+            }
             else
                 texel_numbers(b, x, y, first, out);
         }
@@ -577,7 +668,9 @@ begin(block *b, int32_t x, int32_t y, otx_arena *scratch)
         page->near_rims.first[index + 1] - page->near_rims.first[index];
     b->far_rim = page->far_rim[index];
     b->pieces = OTX_NEW(scratch, otx_texel_piece, PIECES);
-    if (!b->pieces || !otx_raster_begin(scratch, &b->raster))
+    if (!b->pieces || !otx_raster_begin(scratch, &b->raster) ||
+        !otx_raster_near_begin(scratch, &b->raster, &b->near_rim) ||
+        !otx_raster_near_begin(scratch, &b->raster, &b->near_seam))
         return false;
     for (int32_t i = 0; i < PIECES; ++i)
         b->pieces[i].id = -1;
@@ -595,6 +688,7 @@ otx_texel_block(
         return false;
     *overlaps += draw_faces(&b, (int64_t)y * page->columns + x);
     draw_rims(&b);
+    draw_seams(&b, (int64_t)y * page->columns + x);
     shade(&b, pixels);
     return true;
 }

@@ -220,7 +220,7 @@ static otx_status
 write_kind(const writer *w, otx_texel_kind kind)
 {
     const bool preview = kind == OTX_TEXEL_COLOR && w->options->colour;
-    const otx_bake_options options = {kind};
+    const otx_bake_options options = {kind, w->options->seam_blend};
     otx_bake bake;
 
     OTX_TRY(otx_bake_create(

@@ -175,6 +175,81 @@ no_level_jumps_more_across_blocks_than_inside(void **state)
     test_run_destroy(run);
 }
 
+/* Shifts what is right of `x` by 0.2 in u, as a patch of its own. */
+static void
+tear(otx_mapping *mapping, double x)
+{
+    const otx_surface *surface = mapping->surface;
+    const otx_level *leaf = otx_surface_leaf(surface);
+
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        const int32_t *verts = leaf->face_verts + 4 * f;
+        const double middle = 0.5 * (surface->points[3 * verts[0]] +
+                                     surface->points[3 * verts[2]]);
+
+        mapping->face_patch[f] = middle > x;
+        for (int32_t k = 0; middle > x && k < 4; ++k)
+            mapping->uvs[2 * (4 * f + k)] += 0.2f;
+    }
+}
+
+static void
+seams_are_blended_within_their_width(void **state)
+{
+    enum
+    {
+        N = 2,
+        SIDE = 256,
+        BLEND = 16
+    };
+    /* Within the blocks, and where blocks meet. */
+    const double tears[] = {0.5, 1.0};
+
+    (void)state;
+    for (int i = 0; i < 2; ++i)
+    {
+        otx_run *run = test_run_create();
+        const otx_surface *surface = flat_surface(run, N, 3);
+        otx_mapping *mapping = flat_mapping(run, surface, N);
+        const otx_exemplar *exemplar = flat_ramp(run, 64);
+        const otx_bake_options options = {OTX_TEXEL_COLOR, BLEND};
+
+        tear(mapping, tears[i]);
+
+        const otx_layout layout =
+            flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, 8);
+        const flat_levels hard =
+            flat_bake(run, mapping, exemplar, &layout, &COLOR, 0);
+        const flat_levels soft =
+            flat_bake(run, mapping, exemplar, &layout, &options, 0);
+        const double unit = (layout.uvs[4] - layout.uvs[0]) * (double)SIDE;
+
+        for (int32_t y = 0; y < SIDE; ++y)
+            for (int32_t x = 0; x < SIDE; ++x)
+            {
+                const expected e = expect(&layout, N, SIDE, x, y);
+                const double d = (e.x - tears[i]) * unit; /* texels */
+                const double t = fmax(0.5 - fabs(d) / BLEND, 0.0);
+                const double shown =
+                    0.25 + 0.5 * e.x / N + 0.2 * (d > 0.0 ? 1.0 - t : t);
+                const float *p = otx_image_at(&soft.levels[0], x, y);
+
+                /* Margins are blended along their own rim only. */
+                if (!e.on_surface || e.beyond > (i == 0 ? 0.0 : 3.0) ||
+                    e.y < e.face / N || e.y > e.face / N + 1)
+                    continue;
+                if (fabs(p[0] - shown) > 2e-3)
+                    fail_msg(
+                        "tear %d texel %d %d: %g, not %g", i, x, y,
+                        (double)p[0], shown);
+                if (t == 0.0)
+                    assert_true(p[0] == otx_image_at(&hard.levels[0], x, y)[0]);
+            }
+        test_run_destroy(run);
+    }
+}
+
 static void
 a_constant_stays_constant(void **state)
 {
@@ -339,6 +414,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(margins_show_what_is_across_the_edge),
         cmocka_unit_test(no_level_jumps_more_across_blocks_than_inside),
+        cmocka_unit_test(seams_are_blended_within_their_width),
         cmocka_unit_test(a_constant_stays_constant),
         cmocka_unit_test(threads_make_no_difference),
         cmocka_unit_test(numbers_are_those_of_the_mapping),

@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""Every file of a bake is read by the programs of others.
+
+    test_readers.py OSDTEX
+
+OpenImageIO and OpenEXR read the textures, also of UDIM tiles and the extra
+ones; an XML parser reads the MaterialX document; USD and MaterialX themselves
+read their files where their Python modules are installed.
+"""
+
+import sys
+import tempfile
+import xml.etree.ElementTree as xml
+from pathlib import Path
+
+from oracles import ROOT, need, run
+
+
+def bake(osdtex, folder):
+    run(
+        osdtex, "bake", ROOT / "models/cages/ngons_and_triangles.obj",
+        ROOT / "models/exemplars/gravel_tile.png", "-o", folder / "shape.obj",
+        "--level", "2", "--uvs", "atlas", "--resolution", "256",
+        "--texels-per-unit", "60", "--extra", "patch,uv,stretch,seam",
+        "--preview-png", "-q", cwd=ROOT,
+    )
+
+
+def check_textures(folder):
+    textures = sorted(folder.glob("*.exr"))
+    kinds = {p.name.split(".")[0] for p in textures}
+    assert kinds == {
+        "shape", "shape_patch", "shape_uv", "shape_stretch", "shape_seam",
+    }, kinds
+    for path in textures:
+        tile = int(path.name.split(".")[1])
+        assert 1001 <= tile <= 9999
+        info = run("oiiotool", "--info", "-v", path)
+        assert "256 x  256, 3 channel" in info, info
+        assert "MIP-map levels: 256x256 128x128" in info, info
+        assert "tile size: 64 x 64" in info
+        header = run("exrheader", path)
+        assert 'textureformat (type string): "Plain Texture"' in header
+        if path.name.startswith("shape."):
+            assert "half" in info and "chromaticities" in header
+        else:
+            assert "float openexr" in info, info
+    return [p for p in textures if p.name.startswith("shape.")]
+
+
+def check_texts(folder, colors):
+    cage = (folder / "shape_cage.obj").read_text()
+    assert 'face-varying interpolation "all"' in cage
+    assert "mtllib shape_cage.mtl" in cage
+    name = "shape.<UDIM>.exr" if len(colors) > 1 else colors[0].name
+    for library, texture in (("cage", name), ("preview", name[:-3] + "png")):
+        text = (folder / f"shape_{library}.mtl").read_text()
+        assert f"map_Kd {texture}\n" in text, text
+    usda = (folder / "shape.usda").read_text()
+    assert f"@{name}@" in usda
+    root = xml.parse(folder / "shape.mtlx").getroot()
+    files = root.findall("./image/input[@name='file']")
+    assert [f.get("value") for f in files] == [name]
+    assert files[0].get("colorspace") == "acescg"
+
+
+def check_usd(folder):
+    try:
+        from pxr import Usd, UsdGeom, UsdShade
+    except ImportError:
+        print("usd-core is not installed: NAME.usda is not judged by USD")
+        return
+    stage = Usd.Stage.Open(str(folder / "shape.usda"))
+    mesh = UsdGeom.Mesh(stage.GetPrimAtPath("/shape/Cage"))
+    lines = (folder / "shape_cage.obj").read_text().splitlines()
+    faces = [line for line in lines if line.startswith("f ")]
+    assert list(mesh.GetFaceVertexCountsAttr().Get()) == [
+        len(f.split()) - 1 for f in faces
+    ]
+    assert mesh.GetFaceVaryingLinearInterpolationAttr().Get() == "all"
+    assert UsdGeom.Mesh.ValidateTopology(
+        mesh.GetFaceVertexIndicesAttr().Get(),
+        mesh.GetFaceVertexCountsAttr().Get(),
+        len(mesh.GetPointsAttr().Get()),
+    )[0]
+    st = UsdGeom.PrimvarsAPI(mesh).GetPrimvar("st")
+    assert len(st.ComputeFlattened()) == sum(len(f.split()) - 1 for f in faces)
+    material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
+    assert material.ComputeSurfaceSource()[0]
+    print("USD reads NAME.usda")
+
+
+def check_materialx(folder):
+    try:
+        import MaterialX as mx
+    except ImportError:
+        print("MaterialX is not installed: NAME.mtlx is not judged by it")
+        return
+    document = mx.createDocument()
+    mx.readFromXmlFile(document, str(folder / "shape.mtlx"))
+    valid, message = document.validate()
+    assert valid, message
+    print("MaterialX reads NAME.mtlx")
+
+
+def main():
+    need("oiiotool", "exrheader")
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        bake(Path(sys.argv[1]).resolve(), folder)
+        check_texts(folder, check_textures(folder))
+        check_usd(folder)
+        check_materialx(folder)
+
+
+main()
