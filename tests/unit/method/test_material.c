@@ -1,0 +1,196 @@
+/* test_material.c -- whole mappings: covered, unfolded, the same for any
+ * number of threads, refused where there is no lattice. */
+#include "flatten/stretch.h"
+#include "method/method.h"
+#include "unit/field/test_field.h"
+
+#include "base/random.h"
+
+enum
+{
+    SIDE = 128
+};
+
+/* Discs on a square lattice of 32 texels, with a little noise. */
+static otx_exemplar
+make_exemplar(otx_run *run, bool lattice, bool wrap)
+{
+    otx_exemplar e = {.wrap_x = wrap, .wrap_y = wrap};
+    double sum = 0.0, square_sum = 0.0;
+
+    assert_int_equal(
+        otx_image_create(run, run->arena, SIDE, SIDE, 3, &e.match), OSDTEX_OK);
+    for (int32_t y = 0; y < SIDE; ++y)
+        for (int32_t x = 0; x < SIDE; ++x)
+        {
+            const double u = x % 32 - 15.5, v = y % 32 - 15.5;
+            const double c =
+                (lattice ? (u * u + v * v < 100 ? 70.0 : 20.0) : 0.0) +
+                10.0 * otx_random_unit(5, 0, (uint64_t)(y * SIDE + x));
+
+            for (int k = 0; k < 3; ++k)
+                otx_image_at(&e.match, x, y)[k] = (float)c;
+            sum += c;
+            square_sum += c * c;
+        }
+    sum /= SIDE * SIDE;
+    e.match_sigma = e.lab_sigma =
+        sqrt(6.0 * (square_sum / (SIDE * SIDE) - sum * sum));
+    e.match_step = e.lab_step = 0.3 * e.match_sigma;
+    e.lab = e.linear = e.match;
+    return e;
+}
+
+static otx_status
+map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    double scale, otx_mapping *out)
+{
+    const otx_method *method = otx_method_find("material");
+    void *settings = otx_arena_zalloc(run->arena, 1, method->settings_bytes);
+    const otx_map_request request = {.scale = scale, .first_face = -1};
+    otx_map_stats stats;
+
+    otx_option_defaults(method->options, method->option_count, settings);
+    return otx_method_map(
+        run, method, surface, exemplar, &request, settings, out, &stats);
+}
+
+static void
+check(const otx_mapping *m, const otx_exemplar *e)
+{
+    const otx_level *leaf = otx_surface_leaf(m->surface);
+
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        assert_true(m->face_patch[f] >= 0 && m->face_patch[f] < m->patch_count);
+        for (int32_t k = 1; k + 1 < otx_level_face_size(leaf, f); ++k)
+        {
+            const int32_t at[3] = {
+                leaf->face_first[f], leaf->face_first[f] + k,
+                leaf->face_first[f] + k + 1};
+            otx_vec3 p[3];
+            otx_vec2 q[3];
+            double s[2];
+
+            for (int j = 0; j < 3; ++j)
+            {
+                p[j] =
+                    otx_vec3_load(m->surface->points, leaf->face_verts[at[j]]);
+                q[j] = (otx_vec2){m->uvs[2 * at[j]], m->uvs[2 * at[j] + 1]};
+                if (!e->wrap_x)
+                    assert_true(
+                        q[j].x >= 0.0 && q[j].x <= 1.0 && q[j].y >= 0.0 &&
+                        q[j].y <= 1.0);
+            }
+            otx_stretch_singular(p, q, s);
+            assert_true(s[1] > 0.0);
+        }
+    }
+}
+
+static void
+covers_without_folds(void **state)
+{
+    (void)state;
+    for (int wrap = 0; wrap < 2; ++wrap)
+    {
+        otx_run *run = test_run_create();
+        const otx_exemplar e = make_exemplar(run, true, wrap == 1);
+        const otx_cage_input inputs[] = {
+            mesh_cube(run), field_torus(run, 12, 8)};
+
+        for (int i = 0; i < 2; ++i)
+        {
+            const field_surface *s = field_from_input(run, &inputs[i], 4);
+            otx_mapping m;
+
+            if (map(run, &s->surface, &e, i == 0 ? 1.5 : 4.0, &m) != OSDTEX_OK)
+                fail_msg("%s", test_last_message(run));
+            check(&m, &e);
+        }
+        test_run_destroy(run);
+    }
+}
+
+static void
+the_same_for_any_number_of_threads(void **state)
+{
+    otx_run *runs[2];
+    otx_mapping m[2];
+
+    (void)state;
+    for (int i = 0; i < 2; ++i)
+    {
+        runs[i] = test_run_create_with(NULL, i == 0 ? 1 : 3);
+
+        otx_exemplar *e = OTX_NEW(runs[i]->arena, otx_exemplar, 1);
+        const otx_cage_input in = mesh_cube(runs[i]);
+        const field_surface *s = field_from_input(runs[i], &in, 4);
+
+        *e = make_exemplar(runs[i], true, true);
+        assert_int_equal(map(runs[i], &s->surface, e, 1.5, &m[i]), OSDTEX_OK);
+    }
+    assert_int_equal(m[0].patch_count, m[1].patch_count);
+    assert_memory_equal(
+        m[0].uvs, m[1].uvs,
+        2 * sizeof(float) *
+            (size_t)otx_surface_leaf(m[0].surface)->corner_count);
+    test_run_destroy(runs[0]);
+    test_run_destroy(runs[1]);
+}
+
+static void
+what_has_no_lattice_is_refused(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_exemplar e = make_exemplar(run, false, true);
+    const otx_cage_input in = mesh_cube(run);
+    const field_surface *s = field_from_input(run, &in, 2);
+    otx_mapping m;
+
+    (void)state;
+    assert_int_equal(map(run, &s->surface, &e, 1.5, &m), OSDTEX_ERROR_SUPPORT);
+    assert_non_null(strstr(test_last_message(run), "lattice"));
+    test_run_destroy(run);
+}
+
+static void
+the_method_follows_the_exemplar(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_exemplar lattice = make_exemplar(run, true, true);
+    const otx_exemplar noise = make_exemplar(run, false, true);
+    const otx_cage_input in = mesh_cube(run);
+    const field_surface *s = field_from_input(run, &in, 2);
+    otx_map_request request = {.scale = 1.0, .first_face = -1};
+    const otx_method *method;
+
+    (void)state;
+    assert_int_equal(
+        otx_method_choose(run, &s->surface, &lattice, &request, &method),
+        OSDTEX_OK);
+    assert_string_equal(method->name, "material");
+    assert_int_equal(
+        otx_method_choose(run, &s->surface, &noise, &request, &method),
+        OSDTEX_OK);
+    assert_string_equal(method->name, "hierarchical");
+    request.scale = 50.0;
+    assert_int_equal(
+        otx_method_choose(run, &s->surface, &lattice, &request, &method),
+        OSDTEX_OK);
+    assert_string_equal(method->name, "hierarchical");
+    test_run_destroy(run);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(covers_without_folds),
+        cmocka_unit_test(the_same_for_any_number_of_threads),
+        cmocka_unit_test(what_has_no_lattice_is_refused),
+        cmocka_unit_test(the_method_follows_the_exemplar),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
