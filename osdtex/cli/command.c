@@ -73,6 +73,10 @@ static const otx_flag_id render_flags[] = {
     OTX_FLAG_QUIET,        OTX_FLAG_HELP,        OTX_FLAG_VERSION,
     OTX_FLAG_COUNT};
 
+static const otx_flag_id regress_flags[] = {
+    OTX_FLAG_OUTPUT, OTX_FLAG_UPDATE_CASE, OTX_FLAG_PROGRAM, OTX_FLAG_HISTORY,
+    OTX_FLAG_QUIET,  OTX_FLAG_HELP,        OTX_FLAG_VERSION, OTX_FLAG_COUNT};
+
 static const otx_flag_id info_flags[] = {
     OTX_FLAG_SCHEME,      OTX_FLAG_BOUNDARY, OTX_FLAG_FVAR,
     OTX_FLAG_FROM,        OTX_FLAG_TO,       OTX_FLAG_MATCH_SPACE,
@@ -128,6 +132,16 @@ static const otx_command commands[] = {
      "osdtex render pebbles.obj -o pebbles.png --camera front --size 800x800\n"
      "osdtex render pebbles.obj -o patches.png --show patches --unlit\n",
      render_flags, otx_render_command_run},
+    {"regress", "DIR [CASE...]", 1, OTX_FLAG_OPERANDS_MAX,
+     "run a table of cases and compare them with their references",
+     "Runs the cases of DIR/table.json and holds them against DIR/reference: "
+     "files by\ncontent, a rendered picture within 0.004, figures within "
+     "stated tolerances. Writes\nreport.html, results.json and results.csv "
+     "into the output folder. Exit status 6:\na case differs, crashed, or has "
+     "no reference.",
+     "osdtex regress tests/regress/suite -o /var/tmp/nightly\n"
+     "osdtex regress tests/regress/suite -o /var/tmp/nightly --update all\n",
+     regress_flags, otx_regress_command_run},
     {"info", "FILE", 1, 1, "say what a cage or a picture is",
      "Of an OBJ: faces, tags, components, boundary, size. Of a picture: size, "
      "type,\ncolour space as it would be resolved, whether it tiles.",

@@ -15,7 +15,8 @@ enum
     OTX_EXIT_DATA = 2,
     OTX_EXIT_IO = 3,
     OTX_EXIT_COLOUR = 4,
-    OTX_EXIT_LIMIT = 5 /* or internal */
+    OTX_EXIT_LIMIT = 5,  /* or internal */
+    OTX_EXIT_DIFFERS = 6 /* a case of a regression suite */
 };
 
 typedef struct otx_command
@@ -39,6 +40,7 @@ int otx_map_command_run(const otx_flag_values *values);
 int otx_tiles_command_run(const otx_flag_values *values);
 int otx_bake_command_run(const otx_flag_values *values);
 int otx_render_command_run(const otx_flag_values *values);
+int otx_regress_command_run(const otx_flag_values *values);
 int otx_info_command_run(const otx_flag_values *values);
 int otx_methods_command_run(const otx_flag_values *values);
 int otx_help_command_run(const otx_flag_values *values);

@@ -11,7 +11,7 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"output", 'o', OTX_FLAG_GROUP_MAIN, "FILE",
          "what to write; map: DIR/NAME.obj, with NAME.mtl and NAME.exr beside "
          "it; render: a .png or .exr; tiles: an .exr; bake: the name of the "
-         "other files, DIR/NAME.obj"},
+         "other files, DIR/NAME.obj; regress: a folder"},
     [OTX_FLAG_METHOD] =
         {"method", 0, OTX_FLAG_GROUP_MAIN, "NAME",
          "how to texture; `osdtex methods` lists them (default: the first)"},
@@ -174,6 +174,17 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"update", 'u', OTX_FLAG_GROUP_COMMON, NULL,
          "do nothing when the outputs were made by this version from the same "
          "inputs and options"},
+    [OTX_FLAG_UPDATE_CASE] =
+        {"update", 0, OTX_FLAG_GROUP_MAIN, "CASE|all",
+         "run this case, or all, and make what comes out the reference"},
+    [OTX_FLAG_PROGRAM] =
+        {"program", 0, OTX_FLAG_GROUP_MAIN, "COMMAND",
+         "what runs the cases: another build of osdtex, perhaps behind other "
+         "words (default: this program)"},
+    [OTX_FLAG_HISTORY] =
+        {"history", 0, OTX_FLAG_GROUP_MAIN, "FILE",
+         "JSON lines to which the figures of this run are added, and from "
+         "which trends are drawn (default: history.jsonl beside the report)"},
     [OTX_FLAG_MAN] =
         {"man", 0, OTX_FLAG_GROUP_HIDDEN, NULL, "print the man page"},
     [OTX_FLAG_COMPLETION] =

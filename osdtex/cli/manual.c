@@ -108,10 +108,11 @@ put_tail(void)
         "an input file is damaged, not supported, or no surface",
         "a file cannot be read or written",
         "the colour configuration is wrong, or has no such space",
-        "a limit would be exceeded, memory is out, or an internal error"};
+        "a limit would be exceeded, memory is out, or an internal error",
+        "a case of a regression suite differs, crashed or has no reference"};
 
     printf(".SH EXIT STATUS\n");
-    for (int i = 0; i < 6; ++i)
+    for (int i = 0; i < 7; ++i)
         printf(".TP\n%d\n%s\n", i, codes[i]);
     printf(
         ".TP\n130, 143\nstopped by SIGINT or SIGTERM; nothing half\\-written "

@@ -40,6 +40,12 @@ listen_to_signals(void)
     signal(SIGPIPE, SIG_IGN);
 }
 
+bool
+otx_session_is_stopped(void)
+{
+    return caught_signal != 0;
+}
+
 static double
 now(void)
 {

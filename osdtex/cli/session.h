@@ -40,6 +40,10 @@ int otx_session_refuse(const char *format, ...)
 /* With -v: says how long it took since the last lap. */
 void otx_session_lap(otx_session *session, const char *what);
 
+/* Whether SIGINT or SIGTERM has come: for work outside of the library, which
+ * asks by itself. */
+bool otx_session_is_stopped(void);
+
 /* Seconds since the session began. */
 double otx_session_seconds(const otx_session *session);
 
