@@ -116,11 +116,11 @@ static const otx_command commands[] = {
      tiles_flags, otx_tiles_command_run},
     {"bake", "CAGE.obj EXEMPLAR", 2, 2,
      "texture a cage and bake the result onto its UVs",
-     "Textures the cage as `osdtex map` does, but keeps it as it is: writes "
-     "NAME_cage.obj\n(the cage, on its own UVs or on an atlas), NAME_cage.mtl, "
-     "its textures\nNAME.1001.exr and on (mip-mapped, a UDIM tile each), and "
-     "NAME.usda and NAME.mtlx\nfor what OBJ and MTL cannot say. Render it "
-     "subdivided, with the UV rule that\nNAME_cage.obj states.",
+     "Textures the cage as `osdtex map` does, but keeps it as it is: writes\n"
+     "NAME_cage.obj (the cage, on its own UVs or on an atlas), NAME_cage.mtl, "
+     "its\ntextures NAME.1001.exr and on (mip-mapped, a UDIM tile each), and "
+     "NAME.usda and\nNAME.mtlx for what OBJ and MTL cannot say. Render it "
+     "subdivided, with the UV\nrule that NAME_cage.obj states.",
      "osdtex bake models/cages/creature.obj models/exemplars/pebbles_tile.png "
      "\\\n    -o pebbles.obj --resolution 2048\n"
      "osdtex bake shirt.obj weave.exr -o out/shirt.obj --uvs atlas \\\n"
