@@ -2,7 +2,7 @@
 #include "api/call.h"
 #include "api/handle.h"
 #include "api/method_settings.h"
-#include "export/texture.h"
+#include "export/texture_file.h"
 #include "method/tile/tile.h"
 #include "tiling/tileset.h"
 
@@ -109,7 +109,7 @@ write_set(
     otx_atomic_file_set *set;
 
     OTX_TRY(otx_atomic_file_begin(run, run->scratch, &set));
-    OTX_TRY(otx_texture_write(
+    OTX_TRY(otx_texture_file_write(
         run, set, path, exemplar, &made->linear, &made->layout,
         made->random_pair > 0.0 ? made->inner_seam / made->random_pair : 0.0));
     return otx_atomic_file_commit(run, set, true);

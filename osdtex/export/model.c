@@ -2,7 +2,7 @@
 #include "export/model.h"
 
 #include "export/names.h"
-#include "export/texture.h"
+#include "export/texture_file.h"
 #include "export/uv_pool.h"
 #include "file/mtl.h"
 #include "file/obj_write.h"
@@ -228,7 +228,7 @@ write_files(
     if (!set)
         OTX_TRY(otx_atomic_file_begin(run, run->scratch, &set));
     if (!options->without_image)
-        OTX_TRY(otx_texture_write(
+        OTX_TRY(otx_texture_file_write(
             run, set, names->exr, exemplar, &exemplar->linear, &exemplar->tiles,
             -1.0));
     OTX_TRY(write_mtl(run, set, names, &obj->materials));

@@ -5,7 +5,7 @@
 #include "../file/picture_support.h"
 #include "../surface/meshes.h"
 
-#include "export/texture.h"
+#include "export/texture_file.h"
 #include "file/exr.h"
 #include "image/pyramid.h"
 #include "mapping/tile_check.h"
@@ -73,7 +73,7 @@ make_tiles(fixture *f, const otx_tileset_options *options, uint64_t picture)
         fail_msg("%s", test_last_message(run));
     assert_int_equal(otx_atomic_file_begin(run, run->arena, &set), OSDTEX_OK);
     assert_int_equal(
-        otx_texture_write(
+        otx_texture_file_write(
             run, set, path, source, &made.linear, &made.layout, 0.0),
         OSDTEX_OK);
     assert_int_equal(otx_atomic_file_commit(run, set, false), OSDTEX_OK);

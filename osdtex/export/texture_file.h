@@ -1,6 +1,6 @@
-/* texture.h -- an exemplar, or what was made of one, as a texture file. */
-#ifndef OTX_EXPORT_TEXTURE_H
-#define OTX_EXPORT_TEXTURE_H
+/* texture_file.h -- an exemplar, or what was made of one, as a texture file. */
+#ifndef OTX_EXPORT_TEXTURE_FILE_H
+#define OTX_EXPORT_TEXTURE_FILE_H
 
 #include "file/atomic_file.h"
 #include "image/exemplar.h"
@@ -14,7 +14,7 @@
  *              random pair, for the header; negative: not known
  *
  * ARGUMENT, NUMERIC, IO, MEMORY. */
-otx_status otx_texture_write(
+otx_status otx_texture_file_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const otx_exemplar *exemplar, const otx_image *image,
     const otx_tile_layout *layout, double inner_cut);

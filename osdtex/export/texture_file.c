@@ -1,5 +1,5 @@
-/* texture.c -- colour attributes, tile attributes, levels. */
-#include "export/texture.h"
+/* texture_file.c -- colour attributes, tile attributes, levels. */
+#include "export/texture_file.h"
 
 #include "file/exr.h"
 #include "image/pyramid.h"
@@ -50,7 +50,7 @@ separate_levels(
 }
 
 otx_status
-otx_texture_write(
+otx_texture_file_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const otx_exemplar *exemplar, const otx_image *image,
     const otx_tile_layout *layout, double inner_cut)
