@@ -9,7 +9,7 @@
 /* Adds the object "tiles" to `root` where the exemplar is a tiled texture: how
  * far tiles differ where they meet, at every mip level, and how evenly they
  * are used. */
-otx_status otx_tile_report_add(
-    otx_run *run, const osdtex_mapping *mapping, json_t *root);
+otx_status
+otx_tile_report_add(otx_run *run, const osdtex_mapping *mapping, json_t *root);
 
 #endif
