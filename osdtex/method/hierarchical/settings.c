@@ -30,8 +30,8 @@ const otx_option otx_hierarchical_options[] = {
      "joint: patch and collar as rigid as possible; recursive: the paper's "
      "barycentric control polygons; auto follows mode"},
     {"flatness", OTX_OPTION_REAL, FIELD(flatness), 1, 4, 1.12, NULL,
-     "RMS stretch above which a cluster is split before it is mapped; 1 is "
-     "isometric"},
+     "RMS stretch above which a cluster is split before it is mapped, of "
+     "recursive flattening 1 + E_flat; 1 is isometric"},
     {"angles", OTX_OPTION_INTEGER, FIELD(angles), 1, 360, 19, NULL,
      "Orientations tried for each patch"},
     {"continuation", OTX_OPTION_CHOICE, FIELD(continuation), 0, 0, 0,
@@ -55,9 +55,9 @@ const otx_option otx_hierarchical_options[] = {
     {"tau", OTX_OPTION_REAL, FIELD(tau), 0, 100, 0, NULL,
      "Fitting error above which a patch is split, in units of two random "
      "texels' difference; 0 chooses by the exemplar's contrast"},
-    {"usage", OTX_OPTION_REAL, FIELD(usage), 0, 10, 0.5, NULL,
+    {"usage", OTX_OPTION_REAL, FIELD(usage), -1, 10, -1, NULL,
      "Penalty for parts of the exemplar that were used before, against "
-     "motifs that recur"},
+     "motifs that recur; -1 follows mode (best 0.5, paper 0)"},
     {"cut", OTX_OPTION_CHOICE, FIELD(cut), 0, 0, 0, AUTO_OFF_ON,
      "Move the borders between patches to where their textures agree; auto "
      "follows mode"},
@@ -140,6 +140,8 @@ otx_hierarchical_resolve(
         &s->relax, paper, OTX_HIERARCHICAL_RELAX_LOOP,
         OTX_HIERARCHICAL_RELAX_GLOBAL);
     choose(&s->candidates, paper, 1, 1);
+    if (s->usage < 0.0)
+        s->usage = paper ? 0.0 : 0.5;
     if (s->coarse < 0)
         s->coarse = paper ? 0 : coarse_levels(exemplar);
     if (s->patch == 0.0)
