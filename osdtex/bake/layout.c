@@ -276,7 +276,8 @@ span_of(const otx_layout *layout, int32_t face, span *out)
         return false;
     span_along(low[0], high[0], &out->column, &out->column_end);
     span_along(low[1], high[1], &out->row, &out->row_end);
-    return true;
+    /* The last place of the last row would be 10000. */
+    return out->row_end < ROWS || out->column_end < COLUMNS;
 }
 
 static otx_status

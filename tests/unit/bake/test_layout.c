@@ -1,0 +1,217 @@
+/* test_layout.c -- atlases, UDIM tiles, charts, and the rule "linear all". */
+#include "unit/bake/flat.h"
+
+#include "bake/atlas.h"
+#include "bake/spread.h"
+
+static otx_cage
+cage_of(otx_run *run, const char *path)
+{
+    otx_cage cage;
+
+    if (mesh_cage_from_file(run, path, &cage) != OSDTEX_OK)
+        fail_msg("%s", test_last_message(run));
+    return cage;
+}
+
+static const char *const CAGES[] = {
+    "models/cages/creature.obj", "models/cages/ngons_and_triangles.obj",
+    "models/cages/loop_open.obj", "models/cages/creased.obj"};
+
+/* Cells do not overlap, lie in their tile, and keep their margins. */
+static void
+blocks_are_apart(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof CAGES / sizeof *CAGES; ++i)
+    {
+        otx_run *run = test_run_create();
+        const otx_cage cage = cage_of(run, CAGES[i]);
+        const otx_surface surface = mesh_refine(run, &cage, 1);
+        const int32_t side = 1024;
+        const otx_atlas_options options = {side, 0, 0.0};
+        otx_atlas atlas;
+        float *box = OTX_NEW(run->arena, float, 4 * cage.face_count);
+
+        assert_int_equal(
+            otx_atlas_pack(run, &surface, &options, &atlas), OSDTEX_OK);
+        assert_int_equal(atlas.tile_count, 1);
+        for (int32_t f = 0; f < cage.face_count; ++f)
+        {
+            float *b = box + 4 * f;
+
+            b[0] = b[1] = INFINITY;
+            b[2] = b[3] = -INFINITY;
+            for (int32_t c = cage.face_first[f]; c < cage.face_first[f + 1];
+                 ++c)
+                for (int k = 0; k < 2; ++k)
+                {
+                    b[k] = fminf(b[k], atlas.uvs[2 * c + k] * (float)side);
+                    b[2 + k] =
+                        fmaxf(b[2 + k], atlas.uvs[2 * c + k] * (float)side);
+                }
+            for (int k = 0; k < 2; ++k)
+                assert_true(
+                    b[k] >= (float)atlas.margin - 0.01f &&
+                    b[2 + k] <= (float)(side - atlas.margin) + 0.01f);
+        }
+        for (int32_t f = 0; f < cage.face_count; ++f)
+            for (int32_t g = 0; g < f; ++g)
+            {
+                const float *a = box + 4 * f, *b = box + 4 * g;
+                const float gap = fmaxf(
+                    fmaxf(a[0] - b[2], b[0] - a[2]),
+                    fmaxf(a[1] - b[3], b[1] - a[3]));
+
+                assert_true(gap >= 2.0f * (float)atlas.margin - 0.01f);
+            }
+        test_run_destroy(run);
+    }
+}
+
+static void
+a_density_opens_tiles(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_cage cage = cage_of(run, "models/cages/creature.obj");
+    const otx_surface surface = mesh_refine(run, &cage, 1);
+    otx_mapping *mapping = flat_mapping(run, &surface, 10.0);
+    const otx_layout_options options = {
+        OTX_LAYOUT_ATLAS, 256, 4, 16.0 * 256.0 / cage.diagonal};
+    otx_layout layout;
+
+    (void)state;
+    assert_int_equal(
+        otx_layout_build(run, mapping, &options, &layout), OSDTEX_OK);
+    assert_true(layout.tile_count > 10);
+    assert_int_equal(layout.tiles[0], 1001);
+    for (int32_t t = 1; t < layout.tile_count; ++t)
+        assert_int_equal(layout.tiles[t], 1001 + t);
+    test_run_destroy(run);
+}
+
+/* OpenSubdiv, given the atlas and its rule, has the same coordinates. */
+static void
+the_rule_is_opensubdivs(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof CAGES / sizeof *CAGES; ++i)
+    {
+        otx_run *run = test_run_create();
+        otx_cage cage = cage_of(run, CAGES[i]);
+        const otx_surface surface = mesh_refine(run, &cage, 2);
+        const int32_t corners = otx_surface_leaf(&surface)->corner_count;
+        const otx_atlas_options options = {1024, 0, 0.0};
+        float *ours = OTX_NEW(run->arena, float, 2 * corners);
+        int32_t *face_uvs = OTX_NEW(run->arena, int32_t, cage.corner_count);
+        otx_atlas atlas;
+
+        otx_atlas_pack(run, &surface, &options, &atlas);
+        assert_int_equal(
+            otx_spread_linear(run, &surface, atlas.uvs, ours), OSDTEX_OK);
+        for (int32_t c = 0; c < cage.corner_count; ++c)
+            face_uvs[c] = c;
+        cage.uv_count = cage.corner_count;
+        cage.uvs = atlas.uvs;
+        cage.face_uvs = face_uvs;
+        cage.fvar = OTX_FVAR_ALL;
+
+        const otx_surface theirs = mesh_refine(run, &cage, 2);
+
+        for (int32_t c = 0; c < corners; ++c)
+            for (int k = 0; k < 2; ++k)
+                assert_true(
+                    fabsf(
+                        ours[2 * c + k] -
+                        theirs.uvs[2 * theirs.face_uvs[c] + k]) < 1e-6f);
+        test_run_destroy(run);
+    }
+}
+
+/* A sheet with own UVs: its plane, moved by (u, v). */
+static otx_status
+lay_out_own(otx_run *run, float u, float v, otx_layout *out)
+{
+    otx_cage_options options = otx_cage_options_default();
+    otx_cage *cage = OTX_NEW(run->arena, otx_cage, 1);
+    otx_surface *surface = OTX_NEW(run->arena, otx_surface, 1);
+    otx_cage_input in = mesh_grid(run, 2);
+    float *uvs = OTX_NEW(run->arena, float, 18);
+    const otx_layout_options how = {OTX_LAYOUT_OWN, 64, 0, 0.0};
+
+    for (int32_t i = 0; i < 9; ++i)
+    {
+        uvs[2 * i] = 0.5f * in.points[3 * i] + u;
+        uvs[2 * i + 1] = 0.5f * in.points[3 * i + 1] + v;
+    }
+    in.uvs = uvs;
+    in.uv_count = 9;
+    in.face_uvs = in.face_verts;
+    options.scheme = OTX_SCHEME_BILINEAR;
+    *cage = mesh_build(run, &in, &options);
+    *surface = mesh_refine(run, cage, 1);
+    return otx_layout_build(run, flat_mapping(run, surface, 2.0), &how, out);
+}
+
+static void
+own_uvs_are_on_their_tiles(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_layout layout;
+
+    (void)state;
+    assert_int_equal(lay_out_own(run, 0.0f, 0.0f, &layout), OSDTEX_OK);
+    assert_int_equal(layout.tile_count, 1);
+    assert_int_equal(layout.tiles[0], 1001);
+    assert_int_equal(lay_out_own(run, 3.0f, 2.0f, &layout), OSDTEX_OK);
+    assert_int_equal(layout.tile_count, 1);
+    assert_int_equal(layout.tiles[0], 1024);
+    /* Half over the border of a tile. */
+    assert_int_equal(lay_out_own(run, 0.5f, 0.0f, &layout), OSDTEX_OK);
+    assert_int_equal(layout.tile_count, 2);
+    assert_int_equal(layout.tiles[1], 1002);
+    assert_int_equal(
+        lay_out_own(run, -0.5f, 0.0f, &layout), OSDTEX_ERROR_LIMIT);
+    assert_int_equal(lay_out_own(run, 9.5f, 0.0f, &layout), OSDTEX_ERROR_LIMIT);
+    assert_int_equal(lay_out_own(run, 8.0f, 899.0f, &layout), OSDTEX_OK);
+    assert_int_equal(layout.tiles[0], 9999);
+    assert_int_equal(
+        lay_out_own(run, 9.0f, 899.0f, &layout), OSDTEX_ERROR_LIMIT);
+    test_run_destroy(run);
+}
+
+static void
+charts_are_what_hangs_together(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_layout own;
+    const otx_surface *surface = flat_surface(run, 3, 2);
+    const otx_mapping *mapping = flat_mapping(run, surface, 3.0);
+    const otx_layout atlas =
+        flat_layout(run, mapping, OTX_LAYOUT_ATLAS, 256, 4);
+    const otx_level *leaf = otx_surface_leaf(surface);
+
+    (void)state;
+    assert_int_equal(lay_out_own(run, 0.0f, 0.0f, &own), OSDTEX_OK);
+    for (int32_t f = 0; f < otx_surface_leaf(own.surface)->face_count; ++f)
+        assert_int_equal(own.chart[f], 0);
+    for (int32_t f = 1; f < leaf->face_count; ++f)
+        assert_int_equal(
+            atlas.chart[f] == atlas.chart[f - 1],
+            leaf->face_cage[f] == leaf->face_cage[f - 1]);
+    test_run_destroy(run);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blocks_are_apart),
+        cmocka_unit_test(a_density_opens_tiles),
+        cmocka_unit_test(the_rule_is_opensubdivs),
+        cmocka_unit_test(own_uvs_are_on_their_tiles),
+        cmocka_unit_test(charts_are_what_hangs_together),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
