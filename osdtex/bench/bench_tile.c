@@ -124,6 +124,7 @@ enum
 {
     PICTURE = 256,
     TILES = 16,
+    ODD = 4, /* a tile that no turn maps to itself: no ties */
     WINDOWS = 8,
     PATCHES = 2,
     ROUNDS = 2,
@@ -285,8 +286,8 @@ make_by(make_job *job, bool direct)
         &job->run, &job->pool, &job->kit, &job->layout, &all, &job->search));
     for (int32_t i = 0; i < job->tiles; ++i)
     {
-        const otx_tile_name name =
-            otx_tile_layout_name(&job->layout, i * TILES / job->tiles);
+        const otx_tile_name name = otx_tile_layout_name(
+            &job->layout, (i * TILES / job->tiles + ODD) % TILES);
         otx_texel_window windows[WINDOWS + 4 * PATCHES];
         otx_quilt_seams seams;
         int32_t count;

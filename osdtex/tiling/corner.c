@@ -65,11 +65,13 @@ otx_corner_build(
     otx_run *run, const otx_texel_pool *pool, otx_texel_window window,
     int32_t reach, otx_corner *out)
 {
-    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    otx_arena_mark mark;
     otx_quilt sector;
 
     OTX_TRY(
         otx_texel_map_create(run, run->arena, 2 * reach, 2 * reach, &out->map));
+    /* After the result, whose arena may be the same one. */
+    mark = otx_arena_here(run->scratch);
     OTX_TRY(lay_sector(run, pool, window, reach, &sector));
     OTX_TRY(otx_quilt_expand(run, &sector, 0));
     turn_around(&sector, &out->map);

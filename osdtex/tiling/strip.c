@@ -62,12 +62,14 @@ otx_strip_build(
     const otx_texel_map *edge, const otx_corner *start, const otx_corner *end,
     otx_strip *out)
 {
-    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    otx_arena_mark mark;
     otx_quilt quilt;
     int32_t *texel;
 
     OTX_TRY(otx_texel_map_create(
         run, run->arena, sizes->side, 2 * sizes->reach, &out->map));
+    /* After the result, whose arena may be the same one. */
+    mark = otx_arena_here(run->scratch);
     OTX_TRY(otx_quilt_create(
         run, run->scratch, pool, sizes->side, 2 * sizes->reach, &quilt));
     otx_quilt_add(&quilt, *edge);
