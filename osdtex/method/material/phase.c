@@ -10,12 +10,12 @@
 
 enum
 {
-    EIGEN_ROUNDS = 8,
-    UNIT_ROUNDS = 6
+    EIGEN_ROUNDS = 30,
+    UNIT_ROUNDS = 4
 };
 
 /* Length over which one round smooths, in cells. */
-static const double SMOOTHING = 8.0;
+static const double SMOOTHING = 40.0;
 
 /* A sum of steps that is this far from a whole number is not one. */
 static const double WHOLE = 1e-3;
