@@ -487,6 +487,25 @@ extern "C"
         const osdtex_exemplar_options *options, osdtex_exemplar **out);
     OSDTEX_API const osdtex_exemplar_info *
     osdtex_exemplar_describe(const osdtex_exemplar *exemplar);
+
+    /* Whether an exemplar has a direction, or a lattice. */
+    typedef struct osdtex_exemplar_structure
+    {
+        const char *name; /* "isotropic", "directional", "weak-lattice",
+                           * "lattice" */
+        int32_t symmetry; /* turns by 360 / symmetry degrees look the same: 1,
+                           * 2, 4; 0: all turns do */
+        int32_t reserved;
+        double angle;         /* of its direction, radians */
+        double generators[4]; /* of a lattice, texels; else 0 */
+        double coherence;     /* of direction, 0 .. 1 */
+        double regularity;    /* of the lattice that fits best, 0 .. 1 */
+    } osdtex_exemplar_structure;
+
+    /* ARGUMENT, MEMORY. */
+    OSDTEX_API osdtex_status osdtex_exemplar_analyse(
+        osdtex_context *context, const osdtex_exemplar *exemplar,
+        osdtex_exemplar_structure *out);
     OSDTEX_API void osdtex_exemplar_destroy(osdtex_exemplar *exemplar);
 
     /* ------------------------------------------------------------------ */
@@ -541,7 +560,8 @@ extern "C"
     typedef struct osdtex_map_options
     {
         size_t size;
-        const char *method;             /* NULL: the first of the table */
+        const char *method; /* NULL: the first of the table; "auto": by the
+                             * exemplar */
         const osdtex_setting *settings; /* [setting_count], later ones win */
         int32_t setting_count;
         osdtex_index first_face; /* of the cage: where to begin; -1 free */
@@ -551,20 +571,33 @@ extern "C"
         double scale;       /* width of the exemplar in scene units; 0:
                              * osdtex_cage_info.default_scale */
         uint64_t seed;
+        /* A file of constraints on direction and scale, JSON or CSV; NULL
+         * none. */
+        const char *constraints;
+        /* "isotropic", "directional", "weak-lattice" or "lattice"; NULL: the
+         * exemplar is analysed. */
+        const char *exemplar_class;
+        /* Two vectors, in texels, by which the exemplar repeats; all 0:
+         * analysed. */
+        double generators[4];
     } osdtex_map_options;
 
     static inline osdtex_map_options osdtex_map_options_default(void)
     {
-        osdtex_map_options options = {sizeof(osdtex_map_options),
-                                      NULL,
-                                      NULL,
-                                      0,
-                                      -1,
-                                      0.5,
-                                      0.5,
-                                      0.0,
-                                      0.0,
-                                      1};
+        osdtex_map_options options = {
+            sizeof(osdtex_map_options),
+            NULL,
+            NULL,
+            0,
+            -1,
+            0.5,
+            0.5,
+            0.0,
+            0.0,
+            1,
+            NULL,
+            NULL,
+            {0.0, 0.0, 0.0, 0.0}};
 
         return options;
     }

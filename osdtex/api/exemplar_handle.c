@@ -204,3 +204,39 @@ osdtex_exemplar_destroy(osdtex_exemplar *exemplar)
     if (exemplar)
         otx_arena_destroy(exemplar->arena);
 }
+
+static otx_status
+analyse(
+    otx_run *run, const osdtex_exemplar *exemplar,
+    osdtex_exemplar_structure *out)
+{
+    const otx_exemplar *e = &exemplar->exemplar;
+    otx_analysis a;
+
+    OTX_TRY(otx_analysis_run(run, &e->lab, e->wrap_x, e->wrap_y, &a));
+    *out = (osdtex_exemplar_structure){
+        .name = otx_analysis_name(a.kind),
+        .symmetry = a.symmetry,
+        .angle = a.angle,
+        .generators =
+            {a.generators[0].x, a.generators[0].y, a.generators[1].x,
+             a.generators[1].y},
+        .coherence = a.coherence,
+        .regularity = a.regularity,
+    };
+    return OSDTEX_OK;
+}
+
+osdtex_status
+osdtex_exemplar_analyse(
+    osdtex_context *context, const osdtex_exemplar *exemplar,
+    osdtex_exemplar_structure *out)
+{
+    otx_call call;
+
+    if (!out || !exemplar)
+        return OSDTEX_ERROR_ARGUMENT;
+    *out = (osdtex_exemplar_structure){0};
+    OTX_TRY(otx_call_begin(context, "exemplar", &call));
+    return otx_call_drop(&call, analyse(&call.run, exemplar, out));
+}

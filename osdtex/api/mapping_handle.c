@@ -1,11 +1,13 @@
 /* mapping_handle.c -- running a method, writing what it made. */
 #include "api/call.h"
 #include "api/handle.h"
+#include "api/map_input.h"
 #include "api/method_settings.h"
 #include "base/near.h"
 #include "export/model.h"
 
 #include <math.h>
+#include <string.h>
 
 static const char *
 method_name(const void *list, int32_t index)
@@ -15,12 +17,16 @@ method_name(const void *list, int32_t index)
 }
 
 static otx_status
-choose_method(otx_run *run, const char *name, const otx_method **out)
+choose_method(otx_run *run, const char *name, osdtex_mapping *handle)
 {
     char near_names[256];
 
-    *out = name ? otx_method_find(name) : otx_method_at(0);
-    if (*out)
+    if (name && strcmp(name, "auto") == 0)
+        return otx_method_choose(
+            run, &handle->surface->surface, &handle->exemplar->exemplar,
+            &handle->request, &handle->method);
+    handle->method = name ? otx_method_find(name) : otx_method_at(0);
+    if (handle->method)
         return OSDTEX_OK;
     otx_near_text(name ? name : "", method_name, NULL, near_names);
     return otx_fail(
@@ -102,11 +108,15 @@ map(otx_run *run, const osdtex_surface *surface,
     handle->surface = surface;
     handle->exemplar = exemplar;
     handle->seed = ours.seed;
-    OTX_TRY(choose_method(run, ours.method, &handle->method));
+    OTX_TRY(choose_request(run, surface, &ours, &handle->request));
+    OTX_TRY(
+        otx_map_input_constraints(run, &ours, &handle->request.constraints));
+    OTX_TRY(otx_map_input_analysis(
+        run, &ours, &exemplar->exemplar, &handle->request.analysis));
+    OTX_TRY(choose_method(run, ours.method, handle));
     OTX_TRY(otx_method_settings_read(
         run, handle->method, ours.settings, ours.setting_count,
         &handle->settings));
-    OTX_TRY(choose_request(run, surface, &ours, &handle->request));
     run->seed = ours.seed;
     OTX_TRY(otx_method_map(
         run, handle->method, &surface->surface, &exemplar->exemplar,

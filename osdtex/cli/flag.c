@@ -14,7 +14,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "other files, DIR/NAME.obj; regress: a folder"},
     [OTX_FLAG_METHOD] =
         {"method", 0, OTX_FLAG_GROUP_MAIN, "NAME",
-         "how to texture; `osdtex methods` lists them (default: the first)"},
+         "how to texture; `osdtex methods` lists them, auto chooses by the "
+         "exemplar (default: the first)"},
     [OTX_FLAG_SCALE] =
         {"scale", 0, OTX_FLAG_GROUP_MAIN, "S",
          "width of the exemplar on the surface, in scene units (default: a "
@@ -34,6 +35,18 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"first-patch", 0, OTX_FLAG_GROUP_MAIN, "FACE,U,V,ANGLE",
          "begin at this face of the cage (0-based), its middle at U,V of the "
          "exemplar, turned by ANGLE degrees"},
+    [OTX_FLAG_CONSTRAINTS] =
+        {"constraints", 0, OTX_FLAG_GROUP_MAIN, "FILE",
+         "directions and sizes that the texture is to have at faces of the "
+         "cage or at points: a .json or .csv"},
+    [OTX_FLAG_EXEMPLAR_CLASS] =
+        {"exemplar-class", 0, OTX_FLAG_GROUP_MAIN, "NAME",
+         "what the exemplar is: isotropic, directional, weak-lattice or "
+         "lattice (default: it is analysed; see `osdtex info`)"},
+    [OTX_FLAG_GENERATORS] =
+        {"generators", 0, OTX_FLAG_GROUP_MAIN, "X,Y,X,Y",
+         "two vectors, in texels, by which the exemplar repeats (default: it "
+         "is analysed)"},
     [OTX_FLAG_TILE_LEVEL] =
         {"tile-level", 0, OTX_FLAG_GROUP_MAIN, "N",
          "method tile: subdivision level whose quads get one tile each "

@@ -89,6 +89,24 @@ print_exemplar(const osdtex_exemplar_info *e)
     printf("  tiles       %s\n", tiles[e->wrap_x != 0][e->wrap_y != 0]);
 }
 
+static void
+print_structure(const osdtex_exemplar_structure *s)
+{
+    const double *g = s->generators;
+
+    printf(
+        "  structure   %s: coherence %.2f, regularity %.2f\n", s->name,
+        s->coherence, s->regularity);
+    if (s->symmetry > 0)
+        printf(
+            "  direction   %.0f degrees, the same after a turn of %d\n",
+            s->angle * 180.0 / 3.14159265358979323846, 360 / s->symmetry);
+    if (strcmp(s->name, "lattice") == 0)
+        printf(
+            "  repeats     by (%.1f, %.1f) and (%.1f, %.1f) texels\n", g[0],
+            g[1], g[2], g[3]);
+}
+
 static osdtex_status
 inspect_cage(
     osdtex_context *context, const char *path,
@@ -109,12 +127,17 @@ inspect_exemplar(
     osdtex_context *context, const char *path,
     const osdtex_exemplar_options *options)
 {
+    osdtex_exemplar_structure structure;
     osdtex_exemplar *exemplar;
-    const osdtex_status status =
+    osdtex_status status =
         osdtex_exemplar_read(context, path, options, &exemplar);
 
     if (status == OSDTEX_OK)
         print_exemplar(osdtex_exemplar_describe(exemplar));
+    if (status == OSDTEX_OK)
+        status = osdtex_exemplar_analyse(context, exemplar, &structure);
+    if (status == OSDTEX_OK)
+        print_structure(&structure);
     osdtex_exemplar_destroy(exemplar);
     return status;
 }

@@ -225,6 +225,19 @@ parse_tile_level(job *j)
 }
 
 static bool
+parse_fields(job *j)
+{
+    const char *text = j->values->text[OTX_FLAG_GENERATORS];
+
+    j->map_options.constraints = j->values->text[OTX_FLAG_CONSTRAINTS];
+    j->map_options.exemplar_class = j->values->text[OTX_FLAG_EXEMPLAR_CLASS];
+    if (!text || otx_value_reals(text, 4, j->map_options.generators))
+        return true;
+    otx_session_refuse("--generators takes X,Y,X,Y, not '%s'", text);
+    return false;
+}
+
+static bool
 parse_first_patch(job *j)
 {
     const char *text = j->values->text[OTX_FLAG_FIRST_PATCH];
@@ -262,7 +275,8 @@ parse(job *j, const otx_flag_values *values, bool bake_only)
     if (!otx_inputs_cage(values, &j->cage_options) ||
         !otx_inputs_exemplar(values, &j->exemplar_options) ||
         !otx_bake_flags_parse(values, &j->bake_options) || !name_outputs(j) ||
-        !parse_numbers(j) || !parse_tile_level(j) || !parse_first_patch(j))
+        !parse_numbers(j) || !parse_tile_level(j) || !parse_first_patch(j) ||
+        !parse_fields(j))
         return false;
     if (!is_picture(j->preview))
     {

@@ -13,14 +13,18 @@ enum
 
 /* Flags that change what is written to the OBJ, MTL or EXR. */
 static const otx_flag_id matter[] = {
-    OTX_FLAG_METHOD,     OTX_FLAG_SCALE,       OTX_FLAG_LEVEL,
-    OTX_FLAG_SEED,       OTX_FLAG_FIRST_PATCH, OTX_FLAG_SCHEME,
-    OTX_FLAG_BOUNDARY,   OTX_FLAG_FVAR,        OTX_FLAG_FROM,
-    OTX_FLAG_TO,         OTX_FLAG_MATCH_SPACE, OTX_FLAG_MATCH_IN,
-    OTX_FLAG_WRAP,       OTX_FLAG_TILE_LEVEL,  OTX_FLAG_BAKE,
-    OTX_FLAG_BAKE_UVS,   OTX_FLAG_RESOLUTION,  OTX_FLAG_TEXELS_PER_UNIT,
-    OTX_FLAG_MARGIN,     OTX_FLAG_SEAM_BLEND,  OTX_FLAG_EXTRA,
-    OTX_FLAG_PREVIEW_PNG};
+    OTX_FLAG_METHOD,      OTX_FLAG_SCALE,
+    OTX_FLAG_LEVEL,       OTX_FLAG_SEED,
+    OTX_FLAG_FIRST_PATCH, OTX_FLAG_EXEMPLAR_CLASS,
+    OTX_FLAG_GENERATORS,  OTX_FLAG_SCHEME,
+    OTX_FLAG_BOUNDARY,    OTX_FLAG_FVAR,
+    OTX_FLAG_FROM,        OTX_FLAG_TO,
+    OTX_FLAG_MATCH_SPACE, OTX_FLAG_MATCH_IN,
+    OTX_FLAG_WRAP,        OTX_FLAG_TILE_LEVEL,
+    OTX_FLAG_BAKE,        OTX_FLAG_BAKE_UVS,
+    OTX_FLAG_RESOLUTION,  OTX_FLAG_TEXELS_PER_UNIT,
+    OTX_FLAG_MARGIN,      OTX_FLAG_SEAM_BLEND,
+    OTX_FLAG_EXTRA,       OTX_FLAG_PREVIEW_PNG};
 
 static bool
 hash_file(const char *path, char text[OSDTEX_HASH_BYTES])
@@ -68,6 +72,9 @@ put_job(FILE *out, const otx_flag_values *values)
         return false;
     config = config ? config : getenv("OCIO");
     if (config && *config && !put_file(out, config))
+        return false;
+    if (values->text[OTX_FLAG_CONSTRAINTS] &&
+        !put_file(out, values->text[OTX_FLAG_CONSTRAINTS]))
         return false;
     /* The exemplar's name can choose its colour space, by a file rule. */
     fprintf(out, "exemplar %s\n", values->operands[1]);

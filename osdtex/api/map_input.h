@@ -1,0 +1,21 @@
+/* map_input.h -- what a user says about fields and the exemplar, checked. */
+#ifndef OTX_API_MAP_INPUT_H
+#define OTX_API_MAP_INPUT_H
+
+#include "image/exemplar.h"
+#include "method/method.h"
+
+/* Reads the constraints file of the options; `*out` is NULL when there is
+ * none. */
+otx_status otx_map_input_constraints(
+    otx_run *run, const osdtex_map_options *options,
+    const otx_constraint_set **out);
+
+/* What the user takes the exemplar for; `*out` is NULL when he says nothing.
+ * ARGUMENT for a class that is not known, and for generators that span no
+ * cell. */
+otx_status otx_map_input_analysis(
+    otx_run *run, const osdtex_map_options *options,
+    const otx_exemplar *exemplar, const otx_analysis **out);
+
+#endif
