@@ -85,6 +85,13 @@ static const otx_flag_id regress_flags[] = {
     OTX_FLAG_OUTPUT, OTX_FLAG_UPDATE_CASE, OTX_FLAG_PROGRAM, OTX_FLAG_HISTORY,
     OTX_FLAG_QUIET,  OTX_FLAG_HELP,        OTX_FLAG_VERSION, OTX_FLAG_COUNT};
 
+static const otx_flag_id plan_flags[] = {OTX_FLAG_OUTPUT,  OTX_FLAG_ENGINE,
+                                         OTX_FLAG_PROGRAM, OTX_FLAG_HELP,
+                                         OTX_FLAG_VERSION, OTX_FLAG_COUNT};
+
+static const otx_flag_id run_flags[] = {
+    OTX_FLAG_TASK, OTX_FLAG_HELP, OTX_FLAG_VERSION, OTX_FLAG_COUNT};
+
 static const otx_flag_id info_flags[] = {
     OTX_FLAG_SCHEME,      OTX_FLAG_BOUNDARY, OTX_FLAG_FVAR,
     OTX_FLAG_FROM,        OTX_FLAG_TO,       OTX_FLAG_MATCH_SPACE,
@@ -150,6 +157,17 @@ static const otx_command commands[] = {
      "osdtex regress tests/regress/suite -o /var/tmp/nightly\n"
      "osdtex regress tests/regress/suite -o /var/tmp/nightly --update all\n",
      regress_flags, otx_regress_command_run},
+    {"plan", "JOB.json", 1, 1, "write a job for a farm",
+     "A job is a list of tasks, each an `osdtex map` or `osdtex bake`. Writes "
+     "it as make,\nSlurm, OpenCue or Deadline take it, and prints how to hand "
+     "it over.",
+     "osdtex plan shirts.json --engine slurm -o farm/\n"
+     "osdtex plan shirts.json -o farm/ && make -k -j 8 -f farm/Makefile\n",
+     plan_flags, otx_plan_command_run},
+    {"run", "JOB.json", 1, 1, "run a task of a job",
+     "Runs one task, unless its outputs were made by this version from the "
+     "same inputs\nand options. Paths in the job are relative to its folder.",
+     "osdtex run shirts.json --task 3\n", run_flags, otx_run_command_run},
     {"info", "FILE", 1, 1, "say what a cage or a picture is",
      "Of an OBJ: faces, tags, components, boundary, size. Of a picture: size, "
      "type,\ncolour space as it would be resolved, whether it tiles.",

@@ -41,6 +41,8 @@ int otx_tiles_command_run(const otx_flag_values *values);
 int otx_bake_command_run(const otx_flag_values *values);
 int otx_render_command_run(const otx_flag_values *values);
 int otx_regress_command_run(const otx_flag_values *values);
+int otx_plan_command_run(const otx_flag_values *values);
+int otx_run_command_run(const otx_flag_values *values);
 int otx_info_command_run(const otx_flag_values *values);
 int otx_methods_command_run(const otx_flag_values *values);
 int otx_help_command_run(const otx_flag_values *values);

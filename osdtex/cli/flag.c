@@ -11,7 +11,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"output", 'o', OTX_FLAG_GROUP_MAIN, "FILE",
          "what to write; map: DIR/NAME.obj, with NAME.mtl and NAME.exr beside "
          "it; render: a .png or .exr; tiles: an .exr; bake: the name of the "
-         "other files, DIR/NAME.obj; regress: a folder"},
+         "other files, DIR/NAME.obj; regress and plan: a "
+         "folder"},
     [OTX_FLAG_METHOD] =
         {"method", 0, OTX_FLAG_GROUP_MAIN, "NAME",
          "how to texture; `osdtex methods` lists them, auto chooses by the "
@@ -192,12 +193,17 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "run this case, or all, and make what comes out the reference"},
     [OTX_FLAG_PROGRAM] =
         {"program", 0, OTX_FLAG_GROUP_MAIN, "COMMAND",
-         "what runs the cases: another build of osdtex, perhaps behind other "
-         "words (default: this program)"},
+         "what runs the cases or tasks: another build of osdtex, for regress "
+         "perhaps behind other words (default: this program)"},
     [OTX_FLAG_HISTORY] =
         {"history", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "JSON lines to which the figures of this run are added, and from "
          "which trends are drawn (default: history.jsonl beside the report)"},
+    [OTX_FLAG_ENGINE] =
+        {"engine", 0, OTX_FLAG_GROUP_MAIN, "make|slurm|opencue|deadline",
+         "for whom the job is written (default make)"},
+    [OTX_FLAG_TASK] =
+        {"task", 0, OTX_FLAG_GROUP_MAIN, "K", "which task of the job, from 0"},
     [OTX_FLAG_MAN] =
         {"man", 0, OTX_FLAG_GROUP_HIDDEN, NULL, "print the man page"},
     [OTX_FLAG_COMPLETION] =

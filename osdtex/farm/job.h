@@ -1,0 +1,50 @@
+/* job.h -- a list of tasks for a farm: JOB.json.
+ *
+ *     {
+ *       "name": "shirts",
+ *       "threads": 4,
+ *       "tasks": [
+ *         {"name": "shirt_red", "command": "bake",
+ *          "arguments": "cages/shirt.obj red.exr -o out/shirt_red.obj"}
+ *       ]
+ *     }
+ *
+ * Or, instead of "arguments", a list of words, where one holds a blank. Paths
+ * are relative to the folder of the file. A task is one asset: it needs no
+ * other task, and running it again does no harm. */
+#ifndef OTX_FARM_JOB_H
+#define OTX_FARM_JOB_H
+
+#include <jansson.h>
+#include <stdbool.h>
+
+enum
+{
+    OTX_JOB_ERROR_BYTES = 512,
+    OTX_JOB_PATH_BYTES = 4096,
+    OTX_JOB_TASKS_MAX = 100000
+};
+
+typedef struct otx_job
+{
+    json_t *root;
+    const char *name;
+    int threads; /* of a task; 0 all */
+    int task_count;
+    char path[OTX_JOB_PATH_BYTES];   /* of the file, absolute */
+    char folder[OTX_JOB_PATH_BYTES]; /* of it */
+} otx_job;
+
+/* False after saying in `error` what is wrong. */
+bool
+otx_job_read(const char *path, otx_job *out, char error[OTX_JOB_ERROR_BYTES]);
+void otx_job_free(otx_job *job);
+
+/* "map", "bake". */
+const char *otx_job_command(const otx_job *job, int task);
+const char *otx_job_task_name(const otx_job *job, int task);
+
+/* The words behind the command, as a new array of texts. */
+json_t *otx_job_words(const otx_job *job, int task);
+
+#endif
