@@ -496,7 +496,7 @@ reduce(otx_vec2 g[2])
         const otx_vec2 s = g[1 - longer];
         const double k = round(otx_vec2_dot(g[longer], s) / otx_vec2_dot(s, s));
 
-        if (k == 0.0)
+        if (k == 0.0 || !isfinite(k))
             return;
         g[longer] = otx_vec2_sub(g[longer], otx_vec2_scale(k, s));
     }
@@ -608,8 +608,13 @@ rate_peaks(const lags *map, const peak *a, const peak *b, rated *out)
 {
     *out = (rated){.g = {a->at, b->at}};
     reduce(out->g);
-    if (fabs(otx_vec2_cross(out->g[0], out->g[1])) <
-        PAIR_SINE * otx_vec2_length(out->g[0]) * otx_vec2_length(out->g[1]))
+    /* Two peaks in line reduce to a vector and nearly nothing. Written so that
+     * NaN is refused too. */
+    if (!(fabs(otx_vec2_cross(out->g[0], out->g[1])) >
+          PAIR_SINE * otx_vec2_length(out->g[0]) *
+              otx_vec2_length(out->g[1])) ||
+        !(otx_vec2_length(out->g[0]) > 1.0) ||
+        !(otx_vec2_length(out->g[1]) > 1.0))
         return false;
     return rate_pair(map, out);
 }
