@@ -4,7 +4,7 @@
  * with itself, without assuming that it tiles: each lag is normalised by the
  * energy of what overlaps there. Peaks that generate further peaks make a
  * lattice. Thresholds were set on some twenty photographs and patterns; what
- * they gave is listed in docs/notes/analysis.md. */
+ * they gave is listed in docs/notes/material.md. */
 #include "image/analysis.h"
 
 #include "math/fft.h"

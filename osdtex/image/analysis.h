@@ -8,7 +8,7 @@
  *   lattice       weave, brick: shifting the picture by a generator leaves it
  *                 nearly as it is
  *
- * See docs/notes/analysis.md. */
+ * See docs/notes/material.md. */
 #ifndef OTX_IMAGE_ANALYSIS_H
 #define OTX_IMAGE_ANALYSIS_H
 
