@@ -56,6 +56,8 @@ bake(
     OTX_TRY(check(&call->run, mapping, path, &ours));
     place = layout_options(&ours);
     how.seam_blend = ours.seam_blend;
+    how.udim = ours.udim;
+    how.texture_comment = ours.texture_comment;
     how.comments = ours.comments;
     how.comment_count = ours.comment_count;
     how.extras[OTX_TEXEL_PATCH] = (ours.extras & OSDTEX_BAKE_PATCH) != 0;

@@ -30,7 +30,17 @@ parse_numbers(const otx_flag_values *values, osdtex_bake_options *out)
     const char *margin = values->text[OTX_FLAG_MARGIN];
     const char *density = values->text[OTX_FLAG_TEXELS_PER_UNIT];
     const char *blend = values->text[OTX_FLAG_SEAM_BLEND];
+    const char *udim = values->text[OTX_FLAG_UDIM];
     int64_t number;
+
+    if (udim && !otx_value_int(udim, 1001, 9999, &number))
+    {
+        otx_session_refuse(
+            "--udim takes a number from 1001 to 9999, not '%s'", udim);
+        return false;
+    }
+    if (udim)
+        out->udim = (int32_t)number;
 
     if (side && !otx_value_int(side, 16, 32768, &number))
     {

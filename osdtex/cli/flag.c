@@ -116,6 +116,9 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"preview-png", 0, OTX_FLAG_GROUP_BAKE, NULL,
          "also write NAME.<UDIM>.png and NAME_preview.mtl for programs that "
          "read no EXR"},
+    [OTX_FLAG_UDIM] =
+        {"udim", 0, OTX_FLAG_GROUP_BAKE, "N",
+         "bake this tile only, 1001 and on, beside those of other runs"},
     [OTX_FLAG_PREVIEW] =
         {"preview", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "also render the result to a .png or .exr"},

@@ -32,6 +32,7 @@ typedef struct job
     bool maps, bakes; /* which files are asked for */
     char obj[PATH_BYTES], mtl[PATH_BYTES], exr[PATH_BYTES];
     char cage_obj[PATH_BYTES], cage_mtl[PATH_BYTES];
+    char tile_exr[PATH_BYTES];    /* of --udim */
     const char *preview, *report; /* NULL none */
     bool has_hash;
     char hash[OSDTEX_HASH_BYTES];
@@ -59,7 +60,7 @@ name_outputs(job *j)
 {
     const char *path = j->values->text[OTX_FLAG_OUTPUT];
     const size_t length = path ? strlen(path) : 0;
-    char *name;
+    char *name, tile[32];
 
     if (!path || !otx_value_has_extension(path, ".obj") ||
         path[length - 5] == '/' || length >= PATH_BYTES)
@@ -76,7 +77,9 @@ name_outputs(job *j)
     memcpy(j->mtl + length - 4, ".mtl", 5);
     memcpy(j->exr, j->mtl, length + 1);
     memcpy(j->exr + length - 4, ".exr", 5);
-    if (name_beside(j->mtl, "_cage.obj", j->cage_obj) &&
+    snprintf(tile, sizeof tile, ".%d.exr", j->bake_options.udim);
+    if (name_beside(j->mtl, tile, j->tile_exr) &&
+        name_beside(j->mtl, "_cage.obj", j->cage_obj) &&
         name_beside(j->mtl, "_cage.mtl", j->cage_mtl))
         return true;
     otx_session_refuse("'%s' is too long a name", path);
@@ -294,8 +297,10 @@ is_done(const job *j)
            (!j->maps ||
             (otx_up_to_date_check(j->obj, j->hash) &&
              access(j->mtl, F_OK) == 0 && access(j->exr, F_OK) == 0)) &&
-           (!j->bakes || (otx_up_to_date_check(j->cage_obj, j->hash) &&
-                          access(j->cage_mtl, F_OK) == 0)) &&
+           (!j->bakes ||
+            (otx_up_to_date_check(
+                 j->bake_options.udim ? j->tile_exr : j->cage_obj, j->hash) &&
+             access(j->cage_mtl, F_OK) == 0)) &&
            (!j->preview || access(j->preview, F_OK) == 0) &&
            (!j->report || access(j->report, F_OK) == 0);
 }
@@ -360,6 +365,11 @@ write_models(
 
     options.comments = bake.comments = comments;
     options.comment_count = bake.comment_count = count;
+    bake.texture_comment = count > 1 ? comments[1] : NULL;
+    /* One tile does not make the whole: the cage must not say that it is done.
+     */
+    if (bake.udim)
+        bake.comment_count = 1;
     if (j->maps)
         status = osdtex_mapping_write(
             session->context, j->mapping, j->obj, &options);

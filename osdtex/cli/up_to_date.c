@@ -8,7 +8,7 @@
 
 enum
 {
-    HEAD_BYTES = 4096 /* of the OBJ, where its comments are */
+    HEAD_BYTES = 4096 /* of the file, where its comments are */
 };
 
 /* Flags that change what is written to the OBJ, MTL or EXR. */
@@ -109,7 +109,7 @@ otx_up_to_date_job(const otx_flag_values *values, char job[OSDTEX_HASH_BYTES])
 bool
 otx_up_to_date_check(const char *path, const char job[OSDTEX_HASH_BYTES])
 {
-    char head[HEAD_BYTES + 1], line[128];
+    char head[HEAD_BYTES], line[128];
     FILE *file = fopen(path, "rb");
     size_t size;
 
@@ -117,7 +117,6 @@ otx_up_to_date_check(const char *path, const char job[OSDTEX_HASH_BYTES])
         return false;
     size = fread(head, 1, HEAD_BYTES, file);
     fclose(file);
-    head[size] = '\0';
-    snprintf(line, sizeof line, "# " OTX_UP_TO_DATE_COMMENT "%s", job);
-    return strstr(head, line) != NULL;
+    snprintf(line, sizeof line, OTX_UP_TO_DATE_COMMENT "%s", job);
+    return memmem(head, size, line, strlen(line)) != NULL;
 }

@@ -190,7 +190,11 @@ write_tile(const writer *w, otx_bake *bake, int32_t tile, bool preview)
 {
     const otx_texel_kind kind = bake->source.kind;
     const int32_t side = w->layout->side;
-    const otx_exr_options options = exr_options(w, kind);
+    const otx_exr_attribute comment = {
+        .name = "comments",
+        .kind = OTX_EXR_TEXT,
+        .text = w->options->texture_comment};
+    otx_exr_options options = exr_options(w, kind);
     const otx_exr_size size = {side, side, bake->source.channels};
     target t = {.preview_level = -1};
     const otx_bake_sink sink = {put, &t};
@@ -209,6 +213,8 @@ write_tile(const writer *w, otx_bake *bake, int32_t tile, bool preview)
             w->run, w->run->scratch, side >> t.preview_level,
             side >> t.preview_level, size.channels, &t.preview));
     }
+    options.attributes = &comment;
+    options.attribute_count = comment.text != NULL;
     OTX_TRY(otx_exr_begin(w->run, w->set, path, size, &options, &t.exr));
     OTX_TRY(otx_bake_tile(w->run, bake, tile, &sink));
     OTX_TRY(otx_exr_end(t.exr));
@@ -228,8 +234,11 @@ write_kind(const writer *w, otx_texel_kind kind)
     for (int32_t tile = 0; tile < w->layout->tile_count; ++tile)
     {
         const otx_arena_mark mark = otx_arena_here(w->run->scratch);
-        const otx_status status = write_tile(w, &bake, tile, preview);
+        otx_status status;
 
+        if (w->options->udim != 0 && w->layout->tiles[tile] != w->options->udim)
+            continue;
+        status = write_tile(w, &bake, tile, preview);
         otx_arena_release(w->run->scratch, mark);
         OTX_TRY(status);
     }
@@ -348,8 +357,25 @@ write_mtlx(const writer *w)
 }
 
 static otx_status
+check_udim(const writer *w)
+{
+    const otx_layout *layout = w->layout;
+
+    for (int32_t tile = 0; tile < layout->tile_count; ++tile)
+        if (w->options->udim == 0 || layout->tiles[tile] == w->options->udim)
+            return OSDTEX_OK;
+    return otx_fail(
+        w->run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+        "the bake has no tile %" PRId32 "; its %" PRId32
+        " tiles begin with %" PRId32,
+        w->options->udim, layout->tile_count,
+        layout->tile_count > 0 ? layout->tiles[0] : 0);
+}
+
+static otx_status
 write_files(const writer *w)
 {
+    OTX_TRY(check_udim(w));
     OTX_TRY(write_kind(w, OTX_TEXEL_COLOR));
     for (int32_t kind = 1; kind < OTX_TEXEL_KIND_COUNT; ++kind)
         if (w->options->extras[kind])

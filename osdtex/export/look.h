@@ -21,6 +21,8 @@ typedef struct otx_look_options
     double seam_blend;                 /* see bake.h */
     bool extras[OTX_TEXEL_KIND_COUNT]; /* what is baked besides the colour */
     const otx_colour *colour;          /* for the preview; NULL: no preview */
+    int32_t udim;                      /* bake this tile only; 0 all */
+    const char *texture_comment;       /* for the textures; NULL none */
     int32_t comment_count;             /* of the texts, without "# " */
     const char *const *comments;
 } otx_look_options;

@@ -24,7 +24,8 @@ class JobTest(ProgramTest):
         (folder / "job.json").write_text(json.dumps(
             {"name": "assets", "threads": 1, "tasks": [
                 {"name": n, "command": "bake",
-                 "arguments": f"{a} -o out/{n}.obj"} for n, a in tasks]}))
+                 "arguments": a if " -o " in a else f"{a} -o out/{n}.obj"}
+                for n, a in tasks]}))
         return folder / "job.json"
 
     def outputs(self, job):

@@ -48,8 +48,36 @@ class Plan(JobTest):
             self.assertEqual(made.returncode, 0, made.stderr)
         # The second time there was nothing to do.
         self.assertEqual(made.stderr.count("is up to date"), 2)
-        self.assertEqual(self.outputs(alone), self.outputs(farm))
+        self.assertTrue(self.outputs(alone) == self.outputs(farm))
         self.assertGreaterEqual(len(self.outputs(farm)), 10)
+
+    def test_tiles_are_tasks(self):
+        whole = (f"plane.obj {QUICK} --uvs atlas --texels-per-unit 20 "
+                 "-o out/a.obj")
+        alone = self.write_job("alone", [("all", whole)])
+        self.run_all(alone, 1)
+        numbers = sorted(
+            n.split(".")[1] for n in self.outputs(alone) if n.endswith("exr"))
+        self.assertGreater(len(numbers), 2)
+        farm = self.write_job(
+            "farm", [(n, f"{whole} --udim {n}") for n in numbers])
+        self.run_all(farm, len(numbers))
+        for number in numbers:
+            name = f"a.{number}.exr"
+            self.assertTrue(
+                self.outputs(farm)[name] == self.outputs(alone)[name], name)
+        # A done tile is not baked again; the whole is not taken for done.
+        again = self.run_program("run", farm, "--task", "0")
+        self.assertIn("is up to date", again.stderr)
+        again = self.run_program(
+            "bake", "-u", *whole.split(), cwd=farm.parent)
+        self.assert_exit(again, 0)
+        self.assertNotIn("is up to date", again.stderr)
+        self.assertTrue(self.outputs(farm) == self.outputs(alone))
+        self.assert_error(
+            self.run_program(
+                "bake", *whole.split(), "--udim", "5000", cwd=farm.parent), 1,
+            "no tile 5000")
 
     def test_mistakes(self):
         job = self.write_job("job", TASKS)
