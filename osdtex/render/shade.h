@@ -2,9 +2,9 @@
 #ifndef OTX_RENDER_SHADE_H
 #define OTX_RENDER_SHADE_H
 
+#include "image/texture.h"
 #include "render/light.h"
 #include "render/render.h"
-#include "image/texture.h"
 #include "render/tracer.h"
 
 /* What all samples of a picture share. Lengths are in the tracer's units. */

@@ -1,7 +1,8 @@
 #include <osdtex/osdtex.h>
 #include <stdio.h>
 
-int main(void)
+int
+main(void)
 {
     osdtex_context *context;
 
