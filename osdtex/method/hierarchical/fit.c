@@ -14,6 +14,10 @@ enum
     STAGE_PLACE = 0x706c6163
 };
 
+/* Share of the side of an exemplar that does not tile that a patch and its mask
+ * may take up. */
+static const double MASK_SHARE = 0.6;
+
 /* -- mask ---------------------------------------------------------------- */
 
 static double
@@ -46,6 +50,19 @@ add_triangle(
     return otx_band_clip(t, reach, band, out);
 }
 
+/* How far the mask may reach round a patch of `size`. All of the mask must
+ * land inside an exemplar that does not tile, so a wide one leaves few places
+ * to choose from, and keeps the patch away from the exemplar's rim. */
+static double
+widest_mask(const otx_mapper *m, double size)
+{
+    const otx_exemplar *e = m->exemplar;
+    const double width = e->wrap_x ? INFINITY : e->match.width;
+    const double height = e->wrap_y ? INFINITY : e->match.height;
+
+    return 0.5 * (MASK_SHARE * fmin(width, height) - size);
+}
+
 /* The collar's textured faces as mask triangles in the run's scratch. */
 static otx_status
 make_mask(otx_mapper *m, const otx_node *node, otx_mask *out)
@@ -55,6 +72,7 @@ make_mask(otx_mapper *m, const otx_node *node, otx_mask *out)
     const double size = m->texels * sqrt(node->cluster.area);
     const double band = fmin(32.0, fmax(4.0, m->settings.band * size));
     const double collar = fmax(band, m->settings.collar * size);
+    const double widest = fmax(band, widest_mask(m, size));
     /* A triangle that is cut leaves two. */
     otx_mask_triangle *triangles = OTX_NEW(
         m->run->scratch, otx_mask_triangle,
@@ -70,7 +88,7 @@ make_mask(otx_mapper *m, const otx_node *node, otx_mask *out)
         const int32_t first = chart->first[i];
         const float weight = (float)mask_weight(chart->reach[i], band, collar);
 
-        if (m->face_patch[face] < 0)
+        if (m->face_patch[face] < 0 || chart->reach[i] > widest)
             continue;
         for (int32_t k = 1; k + 1 < chart->first[i + 1] - first; ++k)
         {
