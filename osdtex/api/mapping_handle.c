@@ -116,7 +116,7 @@ map(otx_run *run, const osdtex_surface *surface,
     OTX_TRY(choose_method(run, ours.method, handle));
     OTX_TRY(otx_method_settings_read(
         run, handle->method, ours.settings, ours.setting_count,
-        &handle->settings));
+        &exemplar->exemplar, &handle->settings));
     run->seed = ours.seed;
     OTX_TRY(otx_method_map(
         run, handle->method, &surface->surface, &exemplar->exemplar,

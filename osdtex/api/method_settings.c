@@ -1,10 +1,11 @@
-/* method_settings.c -- defaults, then what the caller says. */
+/* method_settings.c -- defaults, then what the caller says, then what is
+ * automatic. The report tells the values that were used. */
 #include "api/method_settings.h"
 
 otx_status
 otx_method_settings_read(
     otx_run *run, const otx_method *method, const osdtex_setting *settings,
-    int32_t setting_count, const void **out)
+    int32_t setting_count, const otx_exemplar *exemplar, const void **out)
 {
     void *values = otx_arena_zalloc(run->arena, method->settings_bytes, 1);
 
@@ -23,6 +24,8 @@ otx_method_settings_read(
             run, method->options, method->option_count, values, s->key,
             s->value));
     }
+    if (method->resolve)
+        method->resolve(values, exemplar);
     *out = values;
     return OSDTEX_OK;
 }

@@ -4,10 +4,10 @@
 
 #include "method/method.h"
 
-/* The defaults of `method` with the caller's settings over them, in run->arena.
- * ARGUMENT, MEMORY. */
+/* The defaults of `method` with the caller's settings over them, as they come
+ * out for this exemplar, in run->arena. ARGUMENT, MEMORY. */
 otx_status otx_method_settings_read(
     otx_run *run, const otx_method *method, const osdtex_setting *settings,
-    int32_t setting_count, const void **out);
+    int32_t setting_count, const otx_exemplar *exemplar, const void **out);
 
 #endif

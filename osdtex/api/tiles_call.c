@@ -77,7 +77,7 @@ choose_names(
 
     OTX_TRY(otx_method_settings_read(
         run, otx_method_find("tile"), options->settings, options->setting_count,
-        &settings));
+        exemplar, &settings));
     OTX_TRY(otx_tileset_plan(run, exemplar, out, &layout));
     OTX_TRY(otx_tile_level(
         run, s, &layout, settings,

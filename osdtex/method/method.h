@@ -71,6 +71,9 @@ typedef struct otx_method
     const otx_option *options;
     int32_t option_count;
     size_t settings_bytes;
+    /* Replaces automatic settings by what they come to for an exemplar; they
+     * stay as they are when called again. NULL: none are. */
+    void (*resolve)(void *settings, const otx_exemplar *exemplar);
     otx_status (*map)(
         otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
         const otx_map_request *request, const void *settings, otx_mapping *out,

@@ -32,6 +32,9 @@ class Jobs(ProgramTest):
         self.assertEqual(data["options"]["level"], 2)
         self.assertEqual(data["options"]["scale"], 2.0)
         self.assertEqual(data["options"]["seed"], 7)
+        settings = data["options"]["settings"]
+        self.assertEqual(settings["relax"], "global")
+        self.assertGreater(float(settings["patch"]), 0)
         self.assertEqual(data["mapping"]["leaf_faces"], 256)
         self.assertEqual(data["distortion"]["flips"], 0)
         self.assertEqual(data["distortion"]["uncovered"], 0)

@@ -22,12 +22,11 @@ queue_key(const otx_mapper *m, int32_t index)
     return 4.0 * node->depth - share + 1e-3 * bend;
 }
 
-/* Splits what is not flat and flattens the children, until all are. */
+/* Flattens the nodes from `first` on, splits what is not flat, and goes on with
+ * the children, until all are. */
 static otx_status
-flatten_all(otx_mapper *m)
+flatten_from(otx_mapper *m, int32_t first)
 {
-    int32_t first = 0;
-
     while (first < m->node_count)
     {
         const int32_t end = m->node_count;
@@ -87,21 +86,11 @@ push_range(otx_mapper *m, otx_queue *queue, int32_t first, int32_t end)
 static otx_status
 descend(otx_mapper *m, otx_queue *queue, int32_t index)
 {
-    int32_t first = m->node_count, pushed = first;
+    const int32_t first = m->node_count;
 
     OTX_TRY(otx_nodes_split(m, index));
-    while (first < m->node_count)
-    {
-        const int32_t end = m->node_count;
-
-        OTX_TRY(otx_nodes_flatten(m, first, end));
-        for (int32_t i = first; i < end; ++i)
-            if (!otx_nodes_is_flat(m, &m->nodes[i]) &&
-                otx_nodes_can_split(m, &m->nodes[i]))
-                OTX_TRY(otx_nodes_split(m, i));
-        first = end;
-    }
-    if (!push_range(m, queue, pushed, m->node_count))
+    OTX_TRY(flatten_from(m, first));
+    if (!push_range(m, queue, first, m->node_count))
         return otx_fail_memory(m->run, "map");
     return OSDTEX_OK;
 }
@@ -242,7 +231,7 @@ fill(
         m->settings.relax = OTX_HIERARCHICAL_RELAX_OFF;
     }
     otx_map_stats_stage(stats, "flatten");
-    OTX_TRY(flatten_all(m));
+    OTX_TRY(flatten_from(m, 0));
     otx_map_stats_stage(stats, "fit");
     OTX_TRY(fit_all(m));
     if (m->patch_count > 0)
@@ -293,6 +282,12 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     return fill(run, surface, exemplar, guided, settings, NULL, out, stats);
 }
 
+static void
+resolve(void *settings, const otx_exemplar *exemplar)
+{
+    otx_hierarchical_resolve(settings, exemplar);
+}
+
 const otx_method otx_method_hierarchical = {
     .name = "hierarchical",
     .summary = "Covers the surface with patches of the exemplar, coarse to "
@@ -301,6 +296,7 @@ const otx_method otx_method_hierarchical = {
     .options = otx_hierarchical_options,
     .option_count = OTX_HIERARCHICAL_OPTION_COUNT,
     .settings_bytes = sizeof(otx_hierarchical_settings),
+    .resolve = resolve,
     .map = map,
     .fill = fill,
 };

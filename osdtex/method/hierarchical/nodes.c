@@ -176,7 +176,7 @@ typedef struct flatten_job
     int32_t first;
 } flatten_job;
 
-/* Diameter of a disc of the cluster's area, texels. */
+/* Side of a square of the cluster's area, texels. */
 static double
 node_size(const otx_mapper *m, const otx_node *node)
 {
