@@ -28,7 +28,6 @@ otx_given_take(otx_mapper *m)
 otx_status
 otx_given_clusters(otx_mapper *m, otx_cluster_list *out)
 {
-    const double diameter = m->settings.patch / m->texels;
     const otx_level *leaf = m->leaves.level;
     int32_t *faces = OTX_NEW(m->run->arena, int32_t, leaf->face_count);
     otx_cluster open = {m->leaves.level_index, 0, faces, 0.0};
@@ -46,8 +45,7 @@ otx_given_clusters(otx_mapper *m, otx_cluster_list *out)
         *out = (otx_cluster_list){0};
         return OSDTEX_OK;
     }
-    return otx_cluster_grow(
-        m->run, &m->leaves, &open, diameter * diameter, 1, 1.0, out);
+    return otx_nodes_grow(m, &m->leaves, &open, out);
 }
 
 /* The faces of one given patch, at their UVs. */

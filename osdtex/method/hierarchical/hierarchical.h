@@ -122,6 +122,10 @@ enum
 
 /* nodes.c: clusters to start with, charts, splitting. */
 otx_status otx_nodes_start(otx_mapper *m);
+/* Clusters of the size of a patch inside `region`, of dual's level. */
+otx_status otx_nodes_grow(
+    const otx_mapper *m, const otx_dual *dual, const otx_cluster *region,
+    otx_cluster_list *out);
 /* Flattens the nodes [first, end), in parallel. */
 otx_status otx_nodes_flatten(otx_mapper *m, int32_t first, int32_t end);
 /* Whether the node is small and flat enough to be mapped as one patch. */

@@ -126,10 +126,20 @@ dual_of(otx_mapper *m, int32_t level, const otx_dual **out)
     return otx_dual_build(m->run, m->surface, level, &m->duals[level]);
 }
 
+otx_status
+otx_nodes_grow(
+    const otx_mapper *m, const otx_dual *dual, const otx_cluster *region,
+    otx_cluster_list *out)
+{
+    const double diameter = m->settings.patch / m->texels;
+
+    return otx_cluster_grow(
+        m->run, dual, region, diameter * diameter, 1, BEND, out);
+}
+
 static otx_status
 start_grown(otx_mapper *m, otx_cluster_list *out)
 {
-    const double diameter = m->settings.patch / m->texels;
     const int32_t level = atom_level(m);
     const int32_t count = m->surface->levels[level].face_count;
     int32_t *faces = OTX_NEW(m->run->arena, int32_t, count);
@@ -141,8 +151,7 @@ start_grown(otx_mapper *m, otx_cluster_list *out)
     for (int32_t f = 0; f < count; ++f)
         faces[f] = f;
     OTX_TRY(dual_of(m, level, &dual));
-    return otx_cluster_grow(
-        m->run, dual, &all, diameter * diameter, 1, BEND, out);
+    return otx_nodes_grow(m, dual, &all, out);
 }
 
 otx_status
