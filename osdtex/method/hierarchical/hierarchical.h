@@ -108,10 +108,9 @@ typedef struct otx_mapper
     otx_vec2 *uvs;       /* [leaf corner_count] texels, where textured */
     int32_t patch_count;
     int32_t *patch_node; /* [leaf face_count] */
-    otx_offer *offers;   /* [offer_count], of the first patches */
-    int32_t offer_count;
-    float *usage;     /* see otx_match_query */
-    double done_area; /* of textured leaves */
+    otx_offer *offers;   /* [patch_count] */
+    float *usage;        /* see otx_match_query */
+    double done_area;    /* of textured leaves */
     double total_area;
 } otx_mapper;
 
