@@ -5,6 +5,7 @@
 #include "api/call.h"
 #include "api/handle.h"
 #include "api/tile_report.h"
+#include "base/hash.h"
 #include "file/atomic_file.h"
 #include "mapping/measure.h"
 
@@ -172,11 +173,14 @@ put_colour(
     const osdtex_exemplar_info *info = &mapping->exemplar->info;
     json_t *colour = add_object(root, "colour");
     json_t *decisions = add_array(colour, "decisions");
+    char hash[OTX_HASH_TEXT_BYTES];
     osdtex_diagnostic d;
 
     set_text(
         colour, "config",
         context->colour.path ? context->colour.path : "built in");
+    if (context->colour.path && otx_hash_file(context->colour.path, hash))
+        set_text(colour, "config_hash", hash);
     set_text(colour, "from", info->source_space);
     set_text(colour, "to", info->linear_space);
     set_text(colour, "match_space", info->match_space);

@@ -46,7 +46,7 @@ typedef struct otx_hierarchical_settings
     int32_t continuation; /* 0 avoid, 1 allow */
     int32_t coarse;       /* -1 auto */
     int32_t keep;
-    int32_t candidates; /* 0 auto */
+    int32_t candidates;
     double band;
     double collar;
     double tau; /* 0 auto */

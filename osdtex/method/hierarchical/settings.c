@@ -44,9 +44,9 @@ const otx_option otx_hierarchical_options[] = {
      "128 texels (paper: 0)"},
     {"keep", OTX_OPTION_INTEGER, FIELD(keep), 1, OTX_MATCH_MAX_KEEP, 16, NULL,
      "Matches of the coarse search that are refined at full resolution"},
-    {"candidates", OTX_OPTION_INTEGER, FIELD(candidates), 0, 16, 0, NULL,
-     "Placements of a patch that are compared after refinement; 0 follows "
-     "mode"},
+    {"candidates", OTX_OPTION_INTEGER, FIELD(candidates), 1, 16, 1, NULL,
+     "Placements of a patch that are compared after refinement, and after "
+     "relax=loop"},
     {"band", OTX_OPTION_REAL, FIELD(band), 0.02, 1, 0.2, NULL,
      "Width of the mask as a share of the patch's size"},
     {"collar", OTX_OPTION_REAL, FIELD(collar), 0, 2, 0.5, NULL,
@@ -139,7 +139,8 @@ otx_hierarchical_resolve(
     choose(
         &s->relax, paper, OTX_HIERARCHICAL_RELAX_LOOP,
         OTX_HIERARCHICAL_RELAX_GLOBAL);
-    choose(&s->candidates, paper, 1, 1);
+    if (paper)
+        s->guide = OTX_HIERARCHICAL_OFF;
     if (s->usage < 0.0)
         s->usage = paper ? 0.0 : 0.5;
     if (s->coarse < 0)
