@@ -3,8 +3,8 @@
  * A job is the hash of the program's version, the bytes of its input files and
  * the text of every flag that changes the result. `map` writes it as a comment
  * into the OBJ, `bake` into its textures too, and since outputs appear together
- * or not at all, a file that carries the hash says that the job is done. Times of files are not looked
- * at: farms copy files about. */
+ * or not at all, a file that carries the hash says that the job is done. Times
+ * of files are not looked at: farms copy files about. */
 #ifndef OTX_CLI_UP_TO_DATE_H
 #define OTX_CLI_UP_TO_DATE_H
 
