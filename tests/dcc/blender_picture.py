@@ -1,10 +1,14 @@
-"""blender_picture -- in Blender: subdivide a baked cage with the modifier, show
-its texture, render with Cycles, and compare with a picture of osdtex.
+"""blender_picture -- in Blender: import a model, show its texture, render with
+Cycles, and compare with a picture of osdtex.
 
     blender -b --factory-startup --python blender_picture.py -- \
-        NAME_cage.obj TEXTURE.exr PICTURE.exr UV_SMOOTH LEVEL X,Y,Z,TX,TY,TZ,FOV
+        MODEL.obj TEXTURE.exr PICTURE.exr UV_SMOOTH LEVEL X,Y,Z,TX,TY,TZ,FOV
 
-Prints one line: `difference MEAN P99 MAX of PIXELS`.
+A level above 0 subdivides with the modifier. TEXTURE `-` shows the picture that
+the importer itself loaded by way of the MTL.
+
+Prints `model FACES VERTICES UVS IMAGE WIDTH HEIGHT FLOAT` and `difference MEAN
+P99 MAX of PIXELS`.
 """
 
 import math
@@ -64,6 +68,32 @@ def subdivide(cage):
     modifier.use_creases = True
 
 
+def picture_of(mesh):
+    if TEXTURE != "-":
+        return bpy.data.images.load(TEXTURE)
+    found = [
+        node.image
+        for material in mesh.materials
+        for node in material.node_tree.nodes
+        if node.type == "TEX_IMAGE" and node.image
+    ]
+    assert len(set(found)) == 1, "one picture is expected"
+    return found[0]
+
+
+def describe(mesh, image):
+    """What came in; UVS is a sum over all corners, which no order changes."""
+    uvs = np.empty(2 * len(mesh.loops), np.float32)
+    mesh.uv_layers.active.data.foreach_get("uv", uvs)
+    print(
+        "model %d %d %.6f %s %d %d %d"
+        % (
+            len(mesh.polygons), len(mesh.vertices), uvs.sum(dtype=np.float64),
+            image.name, image.size[0], image.size[1], image.is_float,
+        )
+    )
+
+
 def show_texture(mesh):
     material = bpy.data.materials.new("baked")
     material.use_nodes = True
@@ -72,10 +102,11 @@ def show_texture(mesh):
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     light = tree.nodes.new("ShaderNodeEmission")
     texture = tree.nodes.new("ShaderNodeTexImage")
-    texture.image = bpy.data.images.load(TEXTURE)
+    texture.image = picture_of(mesh)
     # The numbers as they are: both pictures stay in the bake's space.
     texture.image.colorspace_settings.name = "Non-Color"
-    texture.extension = "EXTEND"
+    texture.extension = "REPEAT" if TEXTURE == "-" else "EXTEND"
+    describe(mesh, texture.image)
     tree.links.new(texture.outputs["Color"], light.inputs["Color"])
     tree.links.new(light.outputs[0], output.inputs["Surface"])
     mesh.materials.clear()
@@ -140,8 +171,9 @@ def inside(alpha):
 def main():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     cage = import_cage()
-    set_creases(cage.data)
-    subdivide(cage)
+    if int(LEVEL) > 0:
+        set_creases(cage.data)
+        subdivide(cage)
     show_texture(cage.data)
     set_camera()
     path = PICTURE[:-4] + "_cycles.exr"

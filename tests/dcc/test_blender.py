@@ -114,4 +114,5 @@ def main():
     sys.exit(f"not within thresholds: {failed}" if failed else 0)
 
 
-main()
+if __name__ == "__main__":
+    main()
