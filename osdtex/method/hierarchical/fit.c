@@ -69,10 +69,9 @@ make_mask(otx_mapper *m, const otx_node *node, otx_mask *out)
 {
     const otx_chart *chart = &node->chart;
     const otx_level *leaf = m->leaves.level;
-    const double size = m->texels * sqrt(node->cluster.area);
-    const double band = fmin(32.0, fmax(4.0, m->settings.band * size));
-    const double collar = fmax(band, m->settings.collar * size);
-    const double widest = fmax(band, widest_mask(m, size));
+    const double band = otx_nodes_band(m, node);
+    const double collar = otx_nodes_collar(m, node);
+    const double widest = fmax(band, widest_mask(m, otx_nodes_size(m, node)));
     /* A triangle that is cut leaves two. */
     otx_mask_triangle *triangles = OTX_NEW(
         m->run->scratch, otx_mask_triangle,
@@ -135,6 +134,23 @@ core_points(otx_mapper *m, const otx_chart *chart, int32_t *count)
     return points;
 }
 
+/* Bounding box of turned points. */
+static void
+turned_bounds(
+    const otx_vec2 *points, int32_t count, otx_vec2 turn, otx_vec2 *low,
+    otx_vec2 *high)
+{
+    *low = (otx_vec2){INFINITY, INFINITY};
+    *high = (otx_vec2){-INFINITY, -INFINITY};
+    for (int32_t i = 0; i < count; ++i)
+    {
+        const otx_vec2 p = otx_vec2_mul(turn, points[i]);
+
+        *low = (otx_vec2){fmin(low->x, p.x), fmin(low->y, p.y)};
+        *high = (otx_vec2){fmax(high->x, p.x), fmax(high->y, p.y)};
+    }
+}
+
 /* Range of shifts along one axis that keeps the points inside, or the whole
  * period where the exemplar tiles. False when there is none. */
 static bool
@@ -167,17 +183,10 @@ place_freely(
                 ? guided[turn % guided_count]
                 : 2.0 * OTX_PI *
                       otx_random_unit(m->run->seed, STAGE_ANGLE, element);
-        const otx_vec2 r = otx_vec2_polar(angle);
-        otx_vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+        otx_vec2 low, high;
         double x, y, dx, dy;
 
-        for (int32_t i = 0; i < count; ++i)
-        {
-            const otx_vec2 p = otx_vec2_mul(r, points[i]);
-
-            low = (otx_vec2){fmin(low.x, p.x), fmin(low.y, p.y)};
-            high = (otx_vec2){fmax(high.x, p.x), fmax(high.y, p.y)};
-        }
+        turned_bounds(points, count, otx_vec2_polar(angle), &low, &high);
         if (!shift_range(
                 m->exemplar->wrap_x, image->width, low.x, high.x, &x, &dx) ||
             !shift_range(
@@ -239,16 +248,10 @@ place_first(
     const double angle = r->first_angle - first_heading(m, chart);
     const otx_vec2 turn = otx_vec2_polar(angle), middle = core_middle(chart);
     const otx_vec2 target = {r->first_position.x * w, r->first_position.y * h};
-    otx_vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
     otx_vec2 shift = otx_vec2_sub(target, otx_vec2_mul(turn, middle));
+    otx_vec2 low, high;
 
-    for (int32_t i = 0; i < count; ++i)
-    {
-        const otx_vec2 p = otx_vec2_mul(turn, points[i]);
-
-        low = (otx_vec2){fmin(low.x, p.x), fmin(low.y, p.y)};
-        high = (otx_vec2){fmax(high.x, p.x), fmax(high.y, p.y)};
-    }
+    turned_bounds(points, count, turn, &low, &high);
     shift.x = shift_inside(e->wrap_x, w, low.x, high.x, shift.x);
     shift.y = shift_inside(e->wrap_y, h, low.y, high.y, shift.y);
     *out = (otx_match){angle, shift, 0.0};

@@ -129,6 +129,12 @@ otx_status otx_nodes_grow(
 otx_status otx_nodes_flatten(otx_mapper *m, int32_t first, int32_t end);
 /* Whether the node is small and flat enough to be mapped as one patch. */
 bool otx_nodes_is_flat(const otx_mapper *m, const otx_node *node);
+/* Size of a node, and the widths around it that depend on it, texels. */
+double otx_nodes_size(const otx_mapper *m, const otx_node *node);
+/* Of the mask at full weight. */
+double otx_nodes_band(const otx_mapper *m, const otx_node *node);
+/* Of what the chart covers and the cut may take over; the band without cut. */
+double otx_nodes_collar(const otx_mapper *m, const otx_node *node);
 /* Length of a leaf edge, texels. */
 double otx_nodes_edge_length(const otx_mapper *m, int32_t edge);
 /* Frees all charts; nodes and charts are gone afterwards. */

@@ -17,6 +17,15 @@ static const double FACES_PER_DIAMETER = 4.0;
  * number of clusters that fail the flatness test changes little. */
 static const double BEND = 1.0;
 
+/* Texels: a narrower band sees no structure; a collar of 140 gave the seams of
+ * one of 80 with fewer patches, and charts grow with its square. */
+static const double BAND_MINIMUM = 4.0;
+static const double BAND_MAXIMUM = 32.0;
+static const double COLLAR_MAXIMUM = 140.0;
+
+/* A collar holds at least about two rings of leaves. */
+static const double COLLAR_LEAVES = 2.5;
+
 /* Share of the exemplar's shorter side that a patch may fill. */
 static const double EXEMPLAR_SHARE = 0.8;
 
@@ -186,10 +195,30 @@ typedef struct flatten_job
 } flatten_job;
 
 /* Side of a square of the cluster's area, texels. */
-static double
-node_size(const otx_mapper *m, const otx_node *node)
+double
+otx_nodes_size(const otx_mapper *m, const otx_node *node)
 {
     return m->texels * sqrt(node->cluster.area);
+}
+
+double
+otx_nodes_band(const otx_mapper *m, const otx_node *node)
+{
+    return fmin(
+        BAND_MAXIMUM,
+        fmax(BAND_MINIMUM, m->settings.band * otx_nodes_size(m, node)));
+}
+
+double
+otx_nodes_collar(const otx_mapper *m, const otx_node *node)
+{
+    const double band = otx_nodes_band(m, node);
+
+    if (m->settings.cut != OTX_HIERARCHICAL_ON)
+        return band;
+    return fmax(
+        band,
+        fmin(COLLAR_MAXIMUM, m->settings.collar * otx_nodes_size(m, node)));
 }
 
 static otx_status
@@ -198,15 +227,13 @@ flatten_node(void *context, int64_t index, otx_worker *worker)
     const flatten_job *job = context;
     otx_mapper *m = job->mapper;
     otx_node *node = &m->nodes[job->first + index];
-    const double size = node_size(m, node);
-    const bool cut = m->settings.cut == OTX_HIERARCHICAL_ON;
-    const double collar = cut ? fmin(140.0, m->settings.collar * size)
-                              : fmin(32.0, m->settings.band * size);
     const otx_chart_request request = {
         .surface = m->surface,
         .leaves = &m->leaves,
         .texels = m->texels,
-        .collar = fmax(collar, 2.5 * m->texels * m->surface->mean_edge_length),
+        .collar = fmax(
+            otx_nodes_collar(m, node),
+            COLLAR_LEAVES * m->texels * m->surface->mean_edge_length),
         .bend = BEND,
         .rounds = 5,
     };
@@ -279,7 +306,7 @@ otx_nodes_is_flat(const otx_mapper *m, const otx_node *node)
     const double side =
         fmin(m->exemplar->match.width, m->exemplar->match.height);
 
-    return node_size(m, node) <= EXEMPLAR_SHARE * side &&
+    return otx_nodes_size(m, node) <= EXEMPLAR_SHARE * side &&
            node->chart.distortion <= m->settings.flatness &&
            node->chart.worst <= 2.0 * m->settings.flatness;
 }
