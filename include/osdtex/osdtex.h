@@ -833,7 +833,8 @@ extern "C"
         int32_t samples;  /* to a pixel's side: n * n, 1 .. 16 */
         int32_t unlit;    /* 1: the colours as they are */
         const char *show; /* "texture", "patches", "stretch", "seams", "uv",
-                           * "normals", "flat"; NULL: texture */
+                           * "normals", "flat", "field", "singularities"; NULL:
+                           * texture */
         const char *view; /* "three_quarter", "front", "back", "left", "right",
                            * "top"; NULL: three_quarter */
         double turn;      /* of the view, radians about Y */

@@ -57,6 +57,9 @@ struct osdtex_model
 {
     otx_arena *arena;
     otx_scene scene;
+    /* A field to show; NULL none. */
+    const otx_surface *surface;
+    const otx_guide *guide;
 };
 
 #endif

@@ -348,6 +348,8 @@ create_model(otx_call *call, const osdtex_mapping *mapping, osdtex_model **out)
     handle->arena = run->arena;
     OTX_TRY(otx_scene_from_mapping(
         run, &mapping->mapping, &exemplar, &handle->scene));
+    handle->surface = &mapping->surface->surface;
+    handle->guide = mapping->mapping.guide;
     *out = handle;
     return OSDTEX_OK;
 }

@@ -1,5 +1,7 @@
 /* render_handle.c -- a picture of a model. */
 #include "api/call.h"
+#include "api/field_view.h"
+#include "api/handle.h"
 #include "api/image_handle.h"
 #include "base/near.h"
 #include "render/render.h"
@@ -64,6 +66,7 @@ render(
 {
     osdtex_render_options ours = osdtex_render_options_default();
     otx_render_options how;
+    otx_overlay overlay;
     otx_camera camera;
     otx_image image;
 
@@ -73,6 +76,12 @@ render(
             "no model is given");
     OTX_TRY(otx_call_options(run, &ours, sizeof ours, options));
     OTX_TRY(options_of(run, &ours, &camera, &how));
+    if (model->guide &&
+        (how.show == OTX_SHOW_FIELD || how.show == OTX_SHOW_SINGULARITIES))
+    {
+        OTX_TRY(otx_field_view(run, model->surface, model->guide, &overlay));
+        how.overlay = &overlay;
+    }
     OTX_TRY(otx_render(run, &model->scene, &how, &image));
     return otx_image_handle_wrap(run, image, out);
 }

@@ -16,7 +16,8 @@ static const otx_flag_id map_flags[] = {
     OTX_FLAG_QUIET,          OTX_FLAG_HELP,        OTX_FLAG_VERSION,
     OTX_FLAG_BAKE,           OTX_FLAG_BAKE_UVS,    OTX_FLAG_RESOLUTION,
     OTX_FLAG_MARGIN,         OTX_FLAG_SEAM_BLEND,  OTX_FLAG_TEXELS_PER_UNIT,
-    OTX_FLAG_EXTRA,          OTX_FLAG_PREVIEW_PNG, OTX_FLAG_COUNT};
+    OTX_FLAG_EXTRA,          OTX_FLAG_PREVIEW_PNG, OTX_FLAG_SHOW,
+    OTX_FLAG_COUNT};
 
 static const otx_flag_id bake_flags[] = {
     OTX_FLAG_OUTPUT,         OTX_FLAG_METHOD,       OTX_FLAG_SCALE,
@@ -31,7 +32,8 @@ static const otx_flag_id bake_flags[] = {
     OTX_FLAG_MATCH_IN,       OTX_FLAG_WRAP,         OTX_FLAG_COLORCONFIG,
     OTX_FLAG_THREADS,        OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_DRY_RUN,
     OTX_FLAG_UPDATE,         OTX_FLAG_VERBOSE,      OTX_FLAG_QUIET,
-    OTX_FLAG_HELP,           OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
+    OTX_FLAG_HELP,           OTX_FLAG_VERSION,      OTX_FLAG_SHOW,
+    OTX_FLAG_COUNT};
 
 static const otx_flag_id tiles_flags[] = {
     OTX_FLAG_OUTPUT,

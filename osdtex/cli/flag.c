@@ -171,8 +171,9 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "N x N rays a pixel, 1 to 16 (default 4)"},
     [OTX_FLAG_SHOW] =
         {"show", 0, OTX_FLAG_GROUP_PICTURE, "WHAT",
-         "texture, patches, stretch, seams, uv, normals or flat (default "
-         "texture)"},
+         "of the picture or preview: texture, patches, stretch, seams, uv, "
+         "normals, flat, field or "
+         "singularities (default texture)"},
     [OTX_FLAG_UNLIT] =
         {"unlit", 0, OTX_FLAG_GROUP_PICTURE, NULL,
          "the colours as they are, without light"},

@@ -348,6 +348,7 @@ render_preview(otx_session *session, job *j)
 
     if (!j->preview)
         return OSDTEX_OK;
+    options.show = j->values->text[OTX_FLAG_SHOW];
     status = osdtex_model_create(session->context, j->mapping, &model);
     if (status == OSDTEX_OK)
         status = osdtex_render(session->context, model, &options, &j->picture);

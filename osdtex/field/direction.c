@@ -407,6 +407,51 @@ otx_direction_edit(
     return status;
 }
 
+/* Takes over what vectors say; marks the faces to which they say nothing. */
+static int32_t
+take_vectors(
+    const otx_direction *field, const otx_vec3 *vectors, uint8_t *silent)
+{
+    const otx_connection *c = field->connection;
+    int32_t count = 0;
+
+    for (int32_t f = 0; f < c->level->face_count; ++f)
+    {
+        const otx_vec2 flat =
+            otx_connection_project(c, f, otx_vec3_unit(vectors[f]));
+        /* Written so that NaN is silent too. */
+        const bool speaks = otx_vec2_length(flat) > UPRIGHT;
+
+        field->powers[f] =
+            speaks ? unit_or(raise(flat, field->symmetry), (otx_vec2){1, 0})
+                   : (otx_vec2){1, 0};
+        silent[f] = !speaks && !c->level->face_hole[f];
+        count += silent[f];
+    }
+    return count;
+}
+
+otx_status
+otx_direction_from_vectors(
+    otx_run *run, const otx_connection *connection, int32_t symmetry,
+    const otx_vec3 *vectors, otx_direction *out)
+{
+    const otx_direction_request request = {.symmetry = symmetry};
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const int32_t count = connection->level->face_count;
+    uint8_t *silent = OTX_NEW(run->scratch, uint8_t, count);
+
+    OTX_TRY(check(run, &request));
+    *out = (otx_direction){
+        connection, symmetry, OTX_NEW(run->arena, otx_vec2, count)};
+    if (!out->powers || !silent)
+        return otx_fail_memory(run, "field");
+    if (take_vectors(out, vectors, silent) > 0)
+        OTX_TRY(otx_direction_edit(run, &request, silent, out));
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_direction_refine(
     otx_run *run, const otx_direction *field, const otx_connection *finer,

@@ -66,6 +66,13 @@ otx_status otx_direction_edit(
     otx_run *run, const otx_direction_request *request, const uint8_t *effect,
     otx_direction *field);
 
+/* The field whose direction on each face is the part of `vectors`
+ * ([face_count]) along it; faces without one continue their neighbours. In
+ * run->arena. Errors as above. */
+otx_status otx_direction_from_vectors(
+    otx_run *run, const otx_connection *connection, int32_t symmetry,
+    const otx_vec3 *vectors, otx_direction *out);
+
 /* Angle of one representative, in (-pi / s, pi / s] of the face's frame. */
 static inline double
 otx_direction_angle(const otx_direction *field, int32_t face)

@@ -6,7 +6,16 @@
 #ifndef OTX_MAPPING_MAPPING_H
 #define OTX_MAPPING_MAPPING_H
 
+#include "math/vec.h"
 #include "surface/surface.h"
+
+/* A direction for every leaf face, and how the exemplar is to lie along it. */
+typedef struct otx_guide
+{
+    const otx_vec3 *directions; /* [leaf face_count] unit, along the surface */
+    int32_t symmetry;           /* turns by 360 / symmetry degrees are equal */
+    double angle;               /* of the exemplar's direction, radians */
+} otx_guide;
 
 typedef struct otx_mapping
 {
@@ -17,6 +26,7 @@ typedef struct otx_mapping
      * which the patches were fitted. */
     int32_t *face_patch;
     int32_t patch_count;
+    const otx_guide *guide; /* that it follows; NULL none */
 } otx_mapping;
 
 #endif

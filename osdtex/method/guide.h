@@ -7,13 +7,7 @@
 
 #include "field/constraint.h"
 #include "image/analysis.h"
-
-typedef struct otx_guide
-{
-    const otx_vec3 *directions; /* [leaf face_count] unit, along the surface */
-    int32_t symmetry;           /* turns by 360 / symmetry degrees are equal */
-    double angle;               /* of the exemplar's direction, radians */
-} otx_guide;
+#include "mapping/mapping.h"
 
 /* Solves for the field that `constraints` ask for (NULL: the smoothest), of
  * the exemplar's symmetry. Works on a level of moderate size; leaves inherit.

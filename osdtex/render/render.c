@@ -15,10 +15,15 @@ enum
 };
 
 static const char *const SHOW_NAMES[OTX_SHOW_COUNT] = {
-    [OTX_SHOW_TEXTURE] = "texture", [OTX_SHOW_PATCHES] = "patches",
-    [OTX_SHOW_STRETCH] = "stretch", [OTX_SHOW_SEAMS] = "seams",
-    [OTX_SHOW_UV] = "uv",           [OTX_SHOW_NORMALS] = "normals",
+    [OTX_SHOW_TEXTURE] = "texture",
+    [OTX_SHOW_PATCHES] = "patches",
+    [OTX_SHOW_STRETCH] = "stretch",
+    [OTX_SHOW_SEAMS] = "seams",
+    [OTX_SHOW_UV] = "uv",
+    [OTX_SHOW_NORMALS] = "normals",
     [OTX_SHOW_FLAT] = "flat",
+    [OTX_SHOW_FIELD] = "field",
+    [OTX_SHOW_SINGULARITIES] = "singularities",
 };
 
 /* What the tiles of a picture share. */
@@ -82,6 +87,12 @@ check_options(otx_run *run, const otx_render_options *options)
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "what to show, the view, the turn or the width of seams is not one "
             "of those there are");
+    if (!options->overlay && (options->show == OTX_SHOW_FIELD ||
+                              options->show == OTX_SHOW_SINGULARITIES))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "the model has no direction field to show; `osdtex field` makes "
+            "one, and maps of directional exemplars follow one");
     if (options->camera && !otx_camera_is_valid(options->camera))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,

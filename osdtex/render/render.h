@@ -6,17 +6,20 @@
 #define OTX_RENDER_RENDER_H
 
 #include "render/camera.h"
+#include "render/overlay.h"
 #include "render/scene.h"
 
 typedef enum otx_show
 {
-    OTX_SHOW_TEXTURE, /* flat grey where there is no texture or UV */
-    OTX_SHOW_PATCHES, /* a colour for each patch */
-    OTX_SHOW_STRETCH, /* blue below 1, white at 1, red above */
-    OTX_SHOW_SEAMS,   /* dark lines between patches on a pale texture */
-    OTX_SHOW_UV,      /* (fraction of u, fraction of v, 0) */
-    OTX_SHOW_NORMALS, /* (n + 1) / 2 */
-    OTX_SHOW_FLAT,    /* grey clay */
+    OTX_SHOW_TEXTURE,       /* flat grey where there is no texture or UV */
+    OTX_SHOW_PATCHES,       /* a colour for each patch */
+    OTX_SHOW_STRETCH,       /* blue below 1, white at 1, red above */
+    OTX_SHOW_SEAMS,         /* dark lines between patches on a pale texture */
+    OTX_SHOW_UV,            /* (fraction of u, fraction of v, 0) */
+    OTX_SHOW_NORMALS,       /* (n + 1) / 2 */
+    OTX_SHOW_FLAT,          /* grey clay */
+    OTX_SHOW_FIELD,         /* the overlay on clay */
+    OTX_SHOW_SINGULARITIES, /* the overlay's dots on a pale texture */
     OTX_SHOW_COUNT
 } otx_show;
 
@@ -30,14 +33,16 @@ typedef struct otx_render_options
     bool transparent;         /* alpha 0 around the model, else a grey wall */
     const otx_camera *camera; /* NULL: `view` and `turn` */
     otx_view view;
-    double turn;       /* radians about Y */
-    double seam_width; /* of the lines, pixels */
+    double turn;                /* radians about Y */
+    double seam_width;          /* of the lines, pixels */
+    const otx_overlay *overlay; /* for FIELD and SINGULARITIES */
 } otx_render_options;
 
 /* 1280 x 720, 4 x 4 samples, the texture lit from three quarters. */
 otx_render_options otx_render_defaults(void);
 
-/* "texture", "patches", "stretch", "seams", "uv", "normals", "flat". */
+/* "texture", "patches", "stretch", "seams", "uv", "normals", "flat", "field",
+ * "singularities". */
 const char *otx_render_show_name(otx_show show);
 bool otx_render_show_find(const char *name, otx_show *out);
 

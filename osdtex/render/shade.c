@@ -105,6 +105,12 @@ otx_shade_prepare(
         return prepare_islands(run, out);
     case OTX_SHOW_STRETCH:
         return prepare_stretch(run, out);
+    case OTX_SHOW_FIELD:
+        return otx_overlay_prepare(run, scene, options->overlay, &out->overlay);
+    case OTX_SHOW_SINGULARITIES:
+        OTX_TRY(
+            otx_overlay_prepare(run, scene, options->overlay, &out->overlay));
+        return prepare_textures(run, out);
     default:
         return OSDTEX_OK;
     }
@@ -237,19 +243,41 @@ is_on_seam(const otx_shade *shade, int32_t face, otx_vec2 at)
     return false;
 }
 
+/* The texture's lightness, so that what is drawn on it stands out. */
 static void
-seam_color(
-    const otx_shade *shade, const otx_hit *hit, otx_vec2 at, float rgb[3])
+pale_color(const otx_shade *shade, const otx_hit *hit, float rgb[3])
 {
     texture_color(shade, hit, rgb);
 
     const double grey = (rgb[0] + 2.0 * rgb[1] + rgb[2]) / 4.0;
-    const double pale = 0.42 + 0.35 * fmin(fmax(grey, 0.0), 1.0);
 
+    set_grey((float)(0.42 + 0.35 * fmin(fmax(grey, 0.0), 1.0)), rgb);
+}
+
+static void
+seam_color(
+    const otx_shade *shade, const otx_hit *hit, otx_vec2 at, float rgb[3])
+{
     if (is_on_seam(shade, hit->face, at))
         set_grey(0.012f, rgb);
     else
-        set_grey((float)pale, rgb);
+        pale_color(shade, hit, rgb);
+}
+
+/* Draws the overlay on what is there. */
+static void
+draw_overlay(const otx_shade *shade, const otx_hit *hit, float rgb[3])
+{
+    const otx_scene *scene = shade->scene;
+    otx_vec3 at = {0.0, 0.0, 0.0};
+
+    for (int32_t i = 0; i < 3; ++i)
+        at = otx_vec3_mix(
+            1.0, at, hit->weights[i],
+            otx_vec3_load(scene->points, scene->face_verts[hit->corners[i]]));
+    otx_overlay_draw(
+        &shade->overlay, hit->face, at, otx_vec3_unit(shade->frame.right),
+        otx_vec3_unit(shade->frame.up), rgb);
 }
 
 static otx_vec3
@@ -318,6 +346,14 @@ surface_color(
         return;
     case OTX_SHOW_SEAMS:
         seam_color(shade, hit, at, rgb);
+        return;
+    case OTX_SHOW_FIELD:
+        set_grey(0.5f, rgb);
+        draw_overlay(shade, hit, rgb);
+        return;
+    case OTX_SHOW_SINGULARITIES:
+        pale_color(shade, hit, rgb);
+        draw_overlay(shade, hit, rgb);
         return;
     case OTX_SHOW_UV:
         uv_color(shade->scene, hit, rgb);

@@ -20,6 +20,7 @@ typedef struct otx_shade
     const int32_t *patch;
     const float *stretch;
     const uint8_t *seam;
+    otx_overlay_index overlay;
     int32_t light_rays; /* of each kind to a sample */
 } otx_shade;
 

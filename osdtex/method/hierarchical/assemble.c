@@ -97,12 +97,27 @@ number_patches(const otx_mapper *m, otx_mapping *out)
     return OSDTEX_OK;
 }
 
+static otx_status
+keep_guide(const otx_mapper *m, otx_mapping *out)
+{
+    otx_guide *guide = OTX_NEW(m->run->arena, otx_guide, 1);
+
+    if (!guide)
+        return otx_fail_memory(m->run, "map");
+    if (!m->request->guide)
+        return OSDTEX_OK;
+    *guide = *m->request->guide;
+    out->guide = guide;
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_assemble(otx_mapper *m, otx_mapping *out)
 {
     const otx_level *leaf = m->leaves.level;
 
     *out = (otx_mapping){.surface = m->surface, .scale = m->request->scale};
+    OTX_TRY(keep_guide(m, out));
     if (m->settings.cut == OTX_HIERARCHICAL_ON && m->patch_count > 1)
     {
         otx_map_stats_stage(m->stats, "cut");

@@ -353,7 +353,12 @@ threads_do_not_change_a_bit(void **state)
             otx_scene scene = scene_sphere(run, 12);
             const otx_scene_texture texture = texture_of(run, 16, true);
             otx_render_options options = otx_render_defaults();
+            const otx_overlay_line line = {
+                0, {{0, -1, 0}, {0.1, -0.9, 0.1}}, {0, 1}};
+            const otx_overlay_dot dot = {{0, 0, 1}, 1};
+            const otx_overlay overlay = {1, 1, &line, &dot, 0.1, 0.3, 0.0};
 
+            options.overlay = &overlay;
             for (int32_t k = 0; k < 256; ++k)
                 paint(
                     &texture.image, k % 16, k / 16, (float)(k % 3), 0.5f,
