@@ -184,7 +184,10 @@ extern "C"
     {
         OSDTEX_SCHEME_CATMARK = 0,
         OSDTEX_SCHEME_LOOP = 1, /* triangles only */
-        OSDTEX_SCHEME_BILINEAR = 2
+        OSDTEX_SCHEME_BILINEAR = 2,
+        OSDTEX_SCHEME_NONE = 3 /* a plain mesh of triangles or polygons: its
+                                * own vertices and faces get UVs, positions
+                                * stay as they are; the level is 0 */
     };
 
     /* What the file's tag says, else USD's default. */

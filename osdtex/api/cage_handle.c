@@ -33,6 +33,8 @@ input_from_obj(const otx_obj *obj)
     input.uv_count = obj->uv_count;
     input.points = obj->points;
     input.colors = obj->colors;
+    input.point_lines = obj->point_lines;
+    input.point_line_bytes = obj->point_line_bytes;
     input.face_first = obj->face_first;
     input.face_verts = obj->face_verts;
     input.uvs = obj->uvs;
@@ -200,8 +202,7 @@ check_options(
     *ours = osdtex_cage_options_default();
     OTX_TRY(otx_call_options(run, ours, sizeof *ours, theirs));
     if (ours->scheme < OSDTEX_SCHEME_CATMARK ||
-        ours->scheme > OSDTEX_SCHEME_BILINEAR ||
-        ours->boundary < OSDTEX_UNSET ||
+        ours->scheme > OSDTEX_SCHEME_NONE || ours->boundary < OSDTEX_UNSET ||
         ours->boundary > OSDTEX_BOUNDARY_EDGE_AND_CORNER ||
         ours->fvar < OSDTEX_UNSET || ours->fvar > OSDTEX_FVAR_ALL)
         return otx_fail(

@@ -8,6 +8,33 @@
  * picture, and a leaf is still more than a filter's width. */
 #define LEAF_TEXELS 10.0
 
+/* Texels along an edge from which faces that cannot be subdivided are coarse
+ * against what is in a picture. */
+#define COARSE_TEXELS 40.0
+
+static void
+note_level(otx_run *run, const osdtex_cage *cage, double texel, int32_t level)
+{
+    const double edge = cage->cage.mean_edge_length / texel;
+
+    if (cage->cage.scheme != OTX_SCHEME_NONE)
+        otx_note(
+            run, OSDTEX_SEVERITY_INFO, "surface", OTX_NOWHERE,
+            "level %d: leaf edges come to about %g texels", level, LEAF_TEXELS);
+    else if (edge < COARSE_TEXELS)
+        otx_note(
+            run, OSDTEX_SEVERITY_INFO, "surface", OTX_NOWHERE,
+            "a plain mesh, textured as it is: its edges come to %.3g texels",
+            edge);
+    else
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, "surface", OTX_NOWHERE,
+            "the edges of this plain mesh come to %.3g texels, and seams can "
+            "only run along them; --scheme bilinear subdivides it and keeps "
+            "its shape",
+            edge);
+}
+
 static otx_status
 choose_level(
     otx_run *run, const osdtex_cage *cage,
@@ -26,9 +53,7 @@ choose_level(
             run, OSDTEX_ERROR_ARGUMENT, "surface", OTX_NOWHERE,
             "level auto needs the size of a texel, a positive number");
     *level = otx_surface_level_for(&cage->cage, LEAF_TEXELS * options->texel);
-    otx_note(
-        run, OSDTEX_SEVERITY_INFO, "surface", OTX_NOWHERE,
-        "level %d: leaf edges come to about %g texels", *level, LEAF_TEXELS);
+    note_level(run, cage, options->texel, *level);
     return OSDTEX_OK;
 }
 

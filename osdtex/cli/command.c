@@ -109,12 +109,15 @@ static const otx_command commands[] = {
      "exemplar so\nthat seams do not show, and writes the refined mesh with "
      "UVs "
      "into the exemplar\n(NAME.obj), its material (NAME.mtl) and the exemplar "
-     "as a texture (NAME.exr).\nThe exemplar is an EXR, PNG, TIFF or JPEG; it "
+     "as a texture (NAME.exr).\nWith --scheme none the mesh stays as it is: "
+     "its vertices and faces get UVs.\nThe exemplar is an EXR, PNG, TIFF or "
+     "JPEG; it "
      "need not tile.",
      "osdtex map models/cages/creature.obj models/exemplars/pebbles_tile.png "
      "\\\n    -o pebbles.obj --preview pebbles.png\n"
      "osdtex map shirt.obj weave.exr -o out/shirt.obj --scale 12 --level 3 \\\n"
-     "    --json-report out/shirt.json\n",
+     "    --json-report out/shirt.json\n"
+     "osdtex map scan.obj bark.png -o out/scan.obj --scheme none\n",
      map_flags, otx_map_command_run},
     {"tiles", "EXEMPLAR", 1, 1, "make a tiled texture from a picture",
      "Makes square tiles that meet exactly on any quad mesh, at edges, "

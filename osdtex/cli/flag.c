@@ -126,8 +126,9 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"json-report", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "also write what was done, decided and measured"},
     [OTX_FLAG_SCHEME] =
-        {"scheme", 0, OTX_FLAG_GROUP_CAGE, "catmark|loop|bilinear",
-         "subdivision scheme (default catmark)"},
+        {"scheme", 0, OTX_FLAG_GROUP_CAGE, "catmark|loop|bilinear|none",
+         "subdivision scheme; none: a plain mesh, whose own vertices and faces "
+         "are textured as they are (default catmark)"},
     [OTX_FLAG_BOUNDARY] =
         {"boundary", 0, OTX_FLAG_GROUP_CAGE, "none|edgeOnly|edgeAndCorner",
          "how the rim is subdivided (default: the file's tag, else "

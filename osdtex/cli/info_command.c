@@ -61,15 +61,23 @@ print_cage(const osdtex_cage_info *c)
     printf(
         "  tags        %d creases, %d corners, %d holes\n", c->crease_count,
         c->corner_count, c->hole_count);
-    printf(
-        "  rules       %s, boundary %s, face-varying %s\n",
-        otx_inputs_scheme_name(c->scheme),
-        otx_inputs_boundary_name(c->boundary), otx_inputs_fvar_name(c->fvar));
+    if (c->scheme == OSDTEX_SCHEME_NONE)
+        printf("  rules       none: a plain mesh, textured as it is\n");
+    else
+        printf(
+            "  rules       %s, boundary %s, face-varying %s\n",
+            otx_inputs_scheme_name(c->scheme),
+            otx_inputs_boundary_name(c->boundary),
+            otx_inputs_fvar_name(c->fvar));
     printf(
         "  carries     %d UVs, %d groups, %d materials\n", c->uv_count,
         c->group_count, c->material_count);
-    if (c->triangle_count == c->face_count && c->scheme != OSDTEX_SCHEME_LOOP)
-        printf("  hint        all faces are triangles: --scheme loop?\n");
+    if (c->triangle_count == c->face_count &&
+        (c->scheme == OSDTEX_SCHEME_CATMARK ||
+         c->scheme == OSDTEX_SCHEME_BILINEAR))
+        printf(
+            "  hint        all faces are triangles: --scheme loop, or none for "
+            "a scan?\n");
 }
 
 static void

@@ -3,7 +3,7 @@
 #include "cli/session.h"
 #include "cli/value.h"
 
-static const char *const schemes[] = {"catmark", "loop", "bilinear"};
+static const char *const schemes[] = {"catmark", "loop", "bilinear", "none"};
 static const char *const boundaries[] = {"none", "edgeOnly", "edgeAndCorner"};
 static const char *const fvars[] = {
     "none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"};
@@ -54,7 +54,7 @@ bool
 otx_inputs_cage(const otx_flag_values *values, osdtex_cage_options *out)
 {
     *out = osdtex_cage_options_default();
-    return choose(values, OTX_FLAG_SCHEME, schemes, 3, &out->scheme) &&
+    return choose(values, OTX_FLAG_SCHEME, schemes, 4, &out->scheme) &&
            choose(values, OTX_FLAG_BOUNDARY, boundaries, 3, &out->boundary) &&
            choose(values, OTX_FLAG_FVAR, fvars, 6, &out->fvar);
 }

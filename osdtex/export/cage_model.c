@@ -131,6 +131,8 @@ otx_cage_model_obj(
         .corner_count = cage->corner_count,
         .points = cage->points,
         .colors = cage->colors,
+        .point_lines = cage->point_lines,
+        .point_line_bytes = cage->point_line_bytes,
         .uvs = layout->uvs,
         .face_first = cage->face_first,
         .face_verts = cage->face_verts,

@@ -38,11 +38,22 @@ allocate_faces(otx_run *run, const otx_level *leaf, leaf_faces *out)
     return OSDTEX_OK;
 }
 
+/* A plain mesh may have been severed where it is no manifold: it is written
+ * with the vertices that it came with. */
+static const int32_t *
+written_verts(const otx_surface *surface)
+{
+    return surface->cage->scheme == OTX_SCHEME_NONE
+               ? surface->cage->face_verts
+               : otx_surface_leaf(surface)->face_verts;
+}
+
 /* Leaf faces in their order, which is that of the cage's; without holes. */
 static otx_status
 gather_faces(otx_run *run, const otx_mapping *mapping, leaf_faces *out)
 {
     const otx_level *leaf = otx_surface_leaf(mapping->surface);
+    const int32_t *verts = written_verts(mapping->surface);
 
     OTX_TRY(allocate_faces(run, leaf, out));
     for (int32_t f = 0; f < leaf->face_count; ++f)
@@ -53,9 +64,7 @@ gather_faces(otx_run *run, const otx_mapping *mapping, leaf_faces *out)
 
         if (leaf->face_hole && leaf->face_hole[f])
             continue;
-        memcpy(
-            out->verts + to, leaf->face_verts + from,
-            size * sizeof *out->verts);
+        memcpy(out->verts + to, verts + from, size * sizeof *out->verts);
         memcpy(
             out->uvs + 2 * to, mapping->uvs + 2 * from,
             2 * size * sizeof *out->uvs);
@@ -133,6 +142,22 @@ carry_materials(
     return OSDTEX_OK;
 }
 
+static void
+set_points(const otx_surface *surface, otx_obj *out)
+{
+    const otx_cage *cage = surface->cage;
+
+    out->vert_count = otx_surface_leaf(surface)->vert_count;
+    out->points = surface->points;
+    if (cage->scheme != OTX_SCHEME_NONE)
+        return;
+    out->vert_count = cage->vert_count;
+    out->points = cage->points;
+    out->colors = cage->colors;
+    out->point_lines = cage->point_lines;
+    out->point_line_bytes = cage->point_line_bytes;
+}
+
 static otx_status
 describe_obj(
     otx_run *run, const otx_mapping *mapping, const otx_names *names,
@@ -151,11 +176,9 @@ describe_obj(
         run, run->scratch, faces.corner_count, faces.verts, faces.uvs, &pool));
     *out = (otx_obj){
         .path = names->obj,
-        .vert_count = otx_surface_leaf(mapping->surface)->vert_count,
         .uv_count = pool.count,
         .face_count = faces.count,
         .corner_count = faces.corner_count,
-        .points = mapping->surface->points,
         .uvs = pool.uvs,
         .face_first = faces.first,
         .face_verts = faces.verts,
@@ -166,6 +189,7 @@ describe_obj(
         .crease_method = OTX_OBJ_NO_RULE,
         .triangles = OTX_OBJ_NO_RULE,
     };
+    set_points(mapping->surface, out);
     OTX_TRY(carry_names(
         run, &faces, cage->face_group, cage->group_count, cage->group_names,
         &out->groups, &out->face_group));

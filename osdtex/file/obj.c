@@ -11,6 +11,7 @@
 #include "file/obj_tags.h"
 
 #include <inttypes.h>
+#include <string.h>
 
 #define STAGE "obj"
 
@@ -57,10 +58,13 @@ typedef struct reader
     int64_t first_line[ELEMENT_COUNT];
     otx_text_quote first_unknown;
     int64_t corners, tag_values;
+    size_t point_line_bytes;
 
     /* What the second pass has so far. */
     int32_t vert_count, uv_count, face_count, corner_count;
     float *points, *colors, *uvs;
+    char *point_lines;
+    size_t point_line_used;
     int32_t *face_first, *face_verts, *face_uvs;
     int64_t *face_line;
     int32_t *attribute[ATTRIBUTE_COUNT];
@@ -110,6 +114,28 @@ read_color(reader *r, const float color[3])
     return OSDTEX_OK;
 }
 
+/* From its keyword, "v", to its end. */
+static size_t
+point_line_bytes(const reader *r)
+{
+    return 1 + (size_t)(r->text.rest.end - r->text.rest.begin) + 1;
+}
+
+static void
+keep_point_line(reader *r)
+{
+    const size_t bytes = point_line_bytes(r);
+    char *to = r->point_lines + r->point_line_used;
+
+    to[0] = 'v';
+    memcpy(to + 1, r->text.rest.begin, bytes - 2);
+    /* Where lines were joined there is more than blanks between numbers. */
+    for (size_t i = 1; i + 1 < bytes; ++i)
+        to[i] = (unsigned char)to[i] < ' ' && to[i] != '\t' ? ' ' : to[i];
+    to[bytes - 1] = '\n';
+    r->point_line_used += bytes;
+}
+
 /* v x y z | x y z w | x y z r g b | x y z r g b a */
 static otx_status
 read_point(reader *r, element kind)
@@ -118,6 +144,7 @@ read_point(reader *r, element kind)
     int32_t count;
 
     (void)kind;
+    keep_point_line(r);
     OTX_TRY(read_numbers(r, "coordinate", MAX_NUMBERS, n, &count));
     if (count < 3 || count == 5 || count > MAX_NUMBERS)
         return otx_fail(
@@ -373,6 +400,8 @@ count_line(reader *r, otx_token word)
         if (kind == ELEMENT_UNKNOWN)
             r->first_unknown = otx_token_quote(word);
     }
+    if (kind == ELEMENT_POINT)
+        r->point_line_bytes += point_line_bytes(r);
     if (kind == ELEMENT_FACE)
         r->corners += otx_text_count(&r->text);
     if (kind == ELEMENT_TAG || kind == ELEMENT_CREASE)
@@ -444,8 +473,9 @@ create_arrays(reader *r)
     r->face_verts = OTX_NEW(arena, int32_t, r->corners);
     r->face_uvs = OTX_NEW(arena, int32_t, r->corners);
     r->face_line = OTX_NEW(arena, int64_t, faces);
-    if (!r->points || !r->uvs || !r->face_first || !r->face_verts ||
-        !r->face_uvs || !r->face_line)
+    r->point_lines = OTX_NEW(arena, char, r->point_line_bytes);
+    if (!r->points || !r->point_lines || !r->uvs || !r->face_first ||
+        !r->face_verts || !r->face_uvs || !r->face_line)
         return otx_fail_memory(r->run, STAGE);
     for (int i = 0; i < ATTRIBUTE_COUNT; ++i)
     {
@@ -521,6 +551,8 @@ finish(const reader *r, otx_obj *out)
         .corner_count = r->corner_count,
         .points = r->points,
         .colors = r->colors,
+        .point_lines = r->point_lines,
+        .point_line_bytes = r->point_line_used,
         .uvs = r->uvs,
         .face_first = r->face_first,
         .face_verts = r->face_verts,

@@ -57,7 +57,12 @@ typedef struct otx_obj
     const float *points; /* [vert_count * 3], finite */
     const float *colors; /* [vert_count * 3] as written, white where a vertex
                           * has none; NULL when none has */
-    const float *uvs;    /* [uv_count * 2], finite */
+    /* The `v` lines as the file has them, in order, each with an LF: what the
+     * writer writes instead of the points, so that they stay the same bytes. A
+     * line that was continued is one line. NULL: the writer prints points. */
+    const char *point_lines;
+    size_t point_line_bytes;
+    const float *uvs; /* [uv_count * 2], finite */
 
     const int32_t *face_first; /* [face_count + 1] */
     const int32_t *face_verts; /* [corner_count], in [0, vert_count) */

@@ -68,7 +68,9 @@ write_floats(otx_text_out *out, const float *values, int32_t count)
 static void
 write_vertices(otx_text_out *out, const otx_obj *obj)
 {
-    for (size_t i = 0; i < (size_t)obj->vert_count; ++i)
+    if (obj->point_lines)
+        otx_text_out_bytes(out, obj->point_lines, obj->point_line_bytes);
+    for (size_t i = 0; !obj->point_lines && i < (size_t)obj->vert_count; ++i)
     {
         otx_text_out_char(out, 'v');
         write_floats(out, obj->points + 3 * i, 3);

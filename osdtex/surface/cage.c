@@ -131,6 +131,18 @@ copy_colors(otx_run *run, const otx_cage_input *in, otx_cage *cage)
     return cage->colors ? OSDTEX_OK : otx_fail_memory(run, STAGE);
 }
 
+/* Only the points of a plain mesh come out as they are. */
+static otx_status
+copy_point_lines(otx_run *run, const otx_cage_input *in, otx_cage *cage)
+{
+    if (!in->point_lines || cage->scheme != OTX_SCHEME_NONE)
+        return OSDTEX_OK;
+    cage->point_line_bytes = in->point_line_bytes;
+    cage->point_lines =
+        copy(run->arena, in->point_lines, in->point_line_bytes, 1);
+    return cage->point_lines ? OSDTEX_OK : otx_fail_memory(run, STAGE);
+}
+
 static otx_status
 copy_mesh(otx_run *run, const otx_cage_input *in, bool uvs, otx_cage *cage)
 {
@@ -292,7 +304,8 @@ advise_scheme(otx_run *run, const otx_cage *cage)
     }
     otx_note(
         run, OSDTEX_SEVERITY_INFO, STAGE, where,
-        "all faces are triangles; --scheme loop would give a smoother surface");
+        "all faces are triangles; --scheme loop would give a smoother surface, "
+        "--scheme none leave them as they are");
 }
 
 static otx_status
@@ -311,8 +324,9 @@ build(
             run->scratch, in->vert_count, in->face_count, in->face_first,
             in->face_verts, &topology))
         return otx_fail_memory(run, STAGE);
-    OTX_TRY(otx_cage_check_manifold(run, in, &topology));
+    OTX_TRY(otx_cage_check_manifold(run, in, &topology, options->scheme));
     OTX_TRY(copy_mesh(run, in, uvs, cage));
+    OTX_TRY(copy_point_lines(run, in, cage));
     OTX_TRY(copy_carried(run, in, cage));
     OTX_TRY(otx_cage_tags_read(run, in, &topology, cage));
     OTX_TRY(measure(run, &topology, cage));

@@ -46,8 +46,10 @@ typedef struct otx_cage
     bool triangles_smooth; /* Catmull-Clark triangle rule */
 
     int32_t vert_count, face_count, corner_count;
-    const float *points;       /* [vert_count * 3], scene units */
-    const float *colors;       /* [vert_count * 3] or NULL */
+    const float *points;     /* [vert_count * 3], scene units */
+    const float *colors;     /* [vert_count * 3] or NULL */
+    const char *point_lines; /* of a plain mesh: see otx_obj; NULL none */
+    size_t point_line_bytes;
     const int32_t *face_first; /* [face_count + 1], offsets into corners */
     const int32_t *face_verts; /* [corner_count] */
 
@@ -98,8 +100,10 @@ typedef struct otx_cage_input
     const char *path; /* NULL none */
 
     int32_t vert_count, face_count, uv_count;
-    const float *points;       /* [vert_count * 3] */
-    const float *colors;       /* [vert_count * 3] or NULL */
+    const float *points;     /* [vert_count * 3] */
+    const float *colors;     /* [vert_count * 3] or NULL */
+    const char *point_lines; /* the file's text of the points; NULL none */
+    size_t point_line_bytes;
     const int32_t *face_first; /* [face_count + 1], from 0 */
     const int32_t *face_verts; /* [corner_count = face_first[face_count]] */
     const float *uvs;          /* [uv_count * 2] */

@@ -324,7 +324,8 @@ check_fan(
 }
 
 static otx_status
-check_fans(otx_run *run, const otx_cage_input *in, const otx_topology *t)
+check_fans(
+    otx_run *run, const otx_cage_input *in, const otx_topology *t, bool plain)
 {
     const otx_topology_fan *fans = otx_topology_fans(run->scratch, t);
     otx_status status = OSDTEX_OK;
@@ -335,10 +336,10 @@ check_fans(otx_run *run, const otx_cage_input *in, const otx_topology *t)
         return otx_fail_memory(run, STAGE);
     for (int32_t v = 0; v < t->vert_count; ++v)
     {
-        if (fans[v].start >= 0)
-            record(&status, check_fan(run, in, t, v, fans[v]));
-        else if (isolated++ == 0)
+        if (fans[v].start < 0 && isolated++ == 0)
             where = otx_cage_check_at_vertex(in, v);
+        if (fans[v].start >= 0 && !plain)
+            record(&status, check_fan(run, in, t, v, fans[v]));
     }
     if (status == OSDTEX_OK && isolated > 0)
         otx_note(
@@ -349,16 +350,51 @@ check_fans(otx_run *run, const otx_cage_input *in, const otx_topology *t)
     return status;
 }
 
+/* A plain mesh is not refused for what it is not: where it is no manifold it
+ * ends, and textures do not go on there. */
+static void
+note_cut(
+    otx_run *run, const otx_cage_input *in, const otx_topology *t, int32_t edge)
+{
+    const int32_t *verts = t->edge_verts + 2 * (size_t)edge;
+    const int32_t *corners = t->edge_corners + t->edge_corner_first[edge];
+    const int32_t size = otx_topology_edge_size(t, edge);
+    const int32_t face = t->corner_face[corners[0]];
+
+    if (size > 2)
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, STAGE,
+            otx_cage_check_at_face(in, face),
+            "%d faces share the edge between vertices %d and %d; the texture "
+            "is cut there",
+            size, verts[0], verts[1]);
+    else if (size == 2 && same_direction(t, corners[0], corners[1]))
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, STAGE,
+            otx_cage_check_at_face(in, face),
+            "faces %d and %d are wound against each other at the edge between "
+            "vertices %d and %d; the texture is cut there, and on one of them "
+            "it is mirrored: flip that one",
+            face, t->corner_face[corners[1]], verts[0], verts[1]);
+}
+
 otx_status
 otx_cage_check_manifold(
-    otx_run *run, const otx_cage_input *in, const otx_topology *t)
+    otx_run *run, const otx_cage_input *in, const otx_topology *t,
+    otx_scheme scheme)
 {
+    const bool plain = scheme == OTX_SCHEME_NONE;
     otx_status status = OSDTEX_OK;
 
     for (int32_t e = 0; e < t->edge_count; ++e)
-        record(&status, check_edge(run, in, t, e));
+    {
+        if (plain)
+            note_cut(run, in, t, e);
+        else
+            record(&status, check_edge(run, in, t, e));
+    }
     OTX_TRY(status);
-    return check_fans(run, in, t);
+    return check_fans(run, in, t, plain);
 }
 
 /* Whether the area vector of a face (Newell's sum) vanishes beside its edges.

@@ -27,10 +27,12 @@ otx_status
 otx_cage_check_uvs(otx_run *run, const otx_cage_input *input, bool *usable);
 
 /* One or two faces at every edge, wound alike, and one fan of faces at every
- * vertex, of at most OTX_CAGE_VALENCE_MAX edges. Warns of vertices without
+ * vertex, of at most OTX_CAGE_VALENCE_MAX edges. Of a plain mesh what is not
+ * so is a warning, since it can be cut there. Warns of vertices without
  * faces. */
 otx_status otx_cage_check_manifold(
-    otx_run *run, const otx_cage_input *input, const otx_topology *topology);
+    otx_run *run, const otx_cage_input *input, const otx_topology *topology,
+    otx_scheme scheme);
 
 /* Warns of faces without area. */
 void otx_cage_check_areas(otx_run *run, const otx_cage_input *input);

@@ -1,6 +1,9 @@
 /* plain.c -- a mesh that is not subdivided is a surface of one level. */
 #include "surface/plain.h"
+#include "surface/sever.h"
 #include "surface/topology.h"
+
+#include <string.h>
 
 #define STAGE "refine"
 
@@ -21,43 +24,77 @@ edge_faces(otx_arena *arena, const otx_topology *t)
     return faces;
 }
 
-otx_status
-otx_plain_cage(
-    otx_run *run, const otx_cage *cage, otx_surface *out, float **tangents)
+/* Points of vertices that were doubled, behind the cage's own. */
+static const float *
+points_of(otx_arena *arena, const otx_cage *cage, const otx_sever *mesh)
 {
-    otx_level *level = OTX_ZNEW(run->arena, otx_level, 1);
+    float *points;
+
+    if (!mesh->source)
+        return cage->points;
+    points = OTX_NEW(arena, float, 3 * (size_t)mesh->vert_count);
+    for (int32_t v = 0; points && v < mesh->vert_count; ++v)
+        memcpy(
+            points + 3 * (size_t)v, cage->points + 3 * (size_t)mesh->source[v],
+            3 * sizeof *points);
+    return points;
+}
+
+static otx_status
+make_level(
+    otx_run *run, const otx_cage *cage, const otx_sever *mesh, otx_level *out)
+{
     int32_t *face_cage = OTX_NEW(run->arena, int32_t, cage->face_count);
-    float *none = OTX_ZNEW(run->arena, float, 6 * (size_t)cage->vert_count);
     int32_t *faces;
     otx_topology t;
 
-    if (!level || !face_cage || !none ||
-        !otx_topology_build(
-            run->arena, cage->vert_count, cage->face_count, cage->face_first,
-            cage->face_verts, &t))
+    if (!face_cage || !otx_topology_build(
+                          run->arena, mesh->vert_count, cage->face_count,
+                          cage->face_first, mesh->face_verts, &t))
         return otx_fail_memory(run, STAGE);
     faces = edge_faces(run->arena, &t);
     if (!faces)
         return otx_fail_memory(run, STAGE);
     for (int32_t f = 0; f < cage->face_count; ++f)
         face_cage[f] = f;
-    *level = (otx_level){
+    *out = (otx_level){
         .face_count = cage->face_count,
-        .vert_count = cage->vert_count,
+        .vert_count = mesh->vert_count,
         .edge_count = t.edge_count,
         .corner_count = cage->corner_count,
         .face_first = cage->face_first,
-        .face_verts = cage->face_verts,
+        .face_verts = mesh->face_verts,
         .face_edges = t.corner_edge,
         .edge_verts = t.edge_verts,
         .edge_faces = faces,
         .face_hole = cage->face_hole,
         .face_cage = face_cage};
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_plain_cage(
+    otx_run *run, const otx_cage *cage, otx_surface *out, float **tangents)
+{
+    otx_level *level = OTX_NEW(run->arena, otx_level, 1);
+    otx_sever mesh;
+    const float *points;
+    float *none;
+
+    if (!level || !otx_sever_build(
+                      run->arena, cage->vert_count, cage->face_count,
+                      cage->face_first, cage->face_verts, &mesh))
+        return otx_fail_memory(run, STAGE);
+    points = points_of(run->arena, cage, &mesh);
+    none = OTX_ZNEW(run->arena, float, 6 * (size_t)mesh.vert_count);
+    if (!points || !none)
+        return otx_fail_memory(run, STAGE);
+    OTX_TRY(make_level(run, cage, &mesh, level));
     *out = (otx_surface){
         .cage = cage,
         .level_count = 1,
         .levels = level,
-        .points = cage->points,
+        .points = points,
         .tangents = none,
         .uv_count = cage->uv_count,
         .uvs = cage->uvs,

@@ -107,7 +107,7 @@ fits(const otx_cage *cage, int32_t level, size_t memory_limit)
     const counts n = count_level(cage, plain ? 0 : level > 0 ? level : 1);
 
     /* Pairs and tangents are indexed in 32 bits. */
-    if (2.0 * n.edges > INT32_MAX || n.corners > INT32_MAX ||
+    if (2.0 * n.edges > INT32_MAX || n.verts + n.corners > INT32_MAX ||
         2.0 * n.verts > INT32_MAX)
         return false;
     return memory_limit == 0 ||
@@ -128,6 +128,12 @@ check_level(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, where,
             "level %d does not exist; it goes from 0 to %d", level,
             OTX_LEVEL_MAX);
+    if (cage->scheme == OTX_SCHEME_NONE && level != 0)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, where,
+            "a plain mesh is not subdivided, so its level is 0 and not %d; to "
+            "subdivide it use --scheme catmark, loop or bilinear",
+            level);
     if (fits(cage, level, memory_limit))
         return OSDTEX_OK;
     while (best >= 0 && !fits(cage, best, memory_limit))

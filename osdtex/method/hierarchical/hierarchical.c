@@ -98,15 +98,19 @@ descend(otx_mapper *m, otx_queue *queue, int32_t index)
 static otx_status
 fails_to_fit(otx_mapper *m, int32_t index)
 {
-    const otx_node *node = &m->nodes[index];
+    const otx_cage *cage = m->surface->cage;
+    const int32_t face = m->leaves.level->face_cage[m->nodes[index].leaves[0]];
 
     return otx_fail(
         m->run, OSDTEX_ERROR_LIMIT, "map",
         (otx_where){
-            m->surface->cage->path, 0,
-            m->leaves.level->face_cage[node->leaves[0]], -1},
-        "a leaf face is larger than the exemplar, which does not tile; raise "
-        "--level or --scale");
+            cage->path, cage->face_line ? cage->face_line[face] : 0, face, -1},
+        cage->scheme == OTX_SCHEME_NONE
+            ? "face %d is larger than the exemplar, which does not tile; raise "
+              "--scale, or subdivide the mesh with --scheme bilinear"
+            : "a leaf of face %d is larger than the exemplar, which does not "
+              "tile; raise --level or --scale",
+        face);
 }
 
 /* The node that holds the cage face of the user's first patch; -1 none. */

@@ -62,8 +62,9 @@ quad_level(otx_run *run, const otx_surface *surface, int32_t *out)
             "quads of them: give --level 1 or more");
     return otx_fail(
         run, OSDTEX_ERROR_TOPOLOGY, STAGE, where,
-        "tiles need quads, and this surface is made of triangles; subdivide "
-        "the cage with --scheme catmark, or use another method");
+        "tiles need quads, and this surface has faces that are none; subdivide "
+        "it with --scheme catmark, or with bilinear, which keeps its shape, or "
+        "use another method");
 }
 
 static double

@@ -100,7 +100,7 @@ test_plain_mesh(void **state)
     (void)state;
     options.scheme = OTX_SCHEME_NONE;
     cage = mesh_build(run, &in, &options);
-    s = mesh_refine(run, &cage, 3);
+    s = mesh_refine(run, &cage, 0);
     assert_int_equal(s.level_count, 1);
     assert_memory_equal(s.points, cube_points, sizeof cube_points);
     for (int32_t i = 0; i < 24; ++i)

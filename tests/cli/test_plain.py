@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+"""Plain meshes, --scheme none: what comes in goes out, with UVs."""
+
+import json
+
+from program import CAGES, EXEMPLARS, SHARED, ProgramTest, main
+
+EXEMPLAR = EXEMPLARS / "gravel_tile.png"
+TORUS = CAGES / "torus.obj"
+QUICK = ("--set", "angles=4", "--set", "coarse=2")
+BUNNY = SHARED / "meshes" / "stanford_bunny_7k.obj"
+
+# Numbers in other forms than osdtex would print, colours, a comment, a
+# continued line, a vertex without faces; four faces at an edge, a face that is
+# wound against its neighbour, and one that is there twice.
+MESSY = """\
+v 0 0 0\r
+v 1.50e0 0 0.000 0.5 0.25 1\r
+v 0\t1 -0 # the top\r
+v 0 0 +1\r
+v -1 \\\r
+ 0 0\r
+v 0 -1 0\r
+v 9 9 9\r
+f 1 2 3
+f 1 2 4
+f 2 1 6
+f 1 3 4
+f -7 3 5
+f 1 2 3
+"""
+MESSY_POINTS = [
+    "v 0 0 0", "v 1.50e0 0 0.000 0.5 0.25 1", "v 0\t1 -0 # the top",
+    "v 0 0 +1", "v -1     0 0", "v 0 -1 0", "v 9 9 9"]
+MESSY_FACES = [[1, 2, 3], [1, 2, 4], [2, 1, 6], [1, 3, 4], [1, 3, 5],
+               [1, 2, 3]]
+
+
+def lines(path, word):
+    return [line for line in path.read_text().splitlines()
+            if line.startswith(word + " ")]
+
+
+def faces(path):
+    return [[int(c.split("/")[0]) for c in line.split()[1:]]
+            for line in lines(path, "f")]
+
+
+class Plain(ProgramTest):
+    def plain(self, mesh, *more, **keywords):
+        return self.run_map(
+            mesh, EXEMPLAR, "--scheme", "none", *QUICK, *more, **keywords)
+
+    def messy(self):
+        path = self.folder / "messy.obj"
+        path.write_bytes(MESSY.encode())
+        return path
+
+    def test_points_and_faces_stay(self):
+        self.assert_exit(self.plain(TORUS), 0)
+        out = self.folder / "out.obj"
+        self.assertEqual(lines(out, "v"), lines(TORUS, "v"))
+        self.assertEqual(faces(out), faces(TORUS))
+        for line in lines(out, "f"):
+            self.assertEqual(line.count("/"), len(line.split()) - 1)
+
+    def test_what_is_no_manifold_is_cut(self):
+        result = self.plain(self.messy(), "--scale", "2")
+        self.assert_exit(result, 0)
+        self.assertIn("messy.obj:9: 4 faces share the edge", result.stderr)
+        self.assertIn("are wound against each other", result.stderr)
+        out = self.folder / "out.obj"
+        self.assertEqual(lines(out, "v"), MESSY_POINTS)
+        self.assertEqual(faces(out), MESSY_FACES)
+
+    def test_a_cage_must_be_a_manifold(self):
+        result = self.run_map(self.messy(), EXEMPLAR, "--scheme", "bilinear")
+        self.assert_error(result, 2, "4 faces (0, 1, 2, …) share the edge")
+
+    def test_the_level_is_0(self):
+        self.assert_exit(self.plain(TORUS, "--level", "0"), 0)
+        result = self.plain(TORUS, "--level", "2", name="two.obj")
+        self.assert_error(result, 1, "a plain mesh is not subdivided")
+
+    def test_coarse_faces_are_warned_of(self):
+        result = self.plain(TORUS, "--scale", "0.5", "-n")
+        self.assertIn("seams can only run along them", result.stderr)
+
+    def test_other_commands(self):
+        result = self.run_program("info", TORUS, "--scheme", "none")
+        self.assertIn("a plain mesh, textured as it is", result.stdout)
+        baked = self.folder / "baked.obj"
+        result = self.run_program(
+            "bake", TORUS, EXEMPLAR, "--scheme", "none", *QUICK, "-o", baked,
+            "--resolution", "256")
+        self.assert_exit(result, 0)
+        self.assertEqual(
+            lines(self.folder / "baked_cage.obj", "v"), lines(TORUS, "v"))
+        self.assertIn(
+            'subdivisionScheme = "none"',
+            (self.folder / "baked.usda").read_text())
+
+    def test_bunny(self):
+        if not BUNNY.exists():
+            self.skipTest("shared data is not here")
+        report = self.folder / "out.json"
+        result = self.plain(BUNNY, "--scale", "2", "--json-report", report)
+        self.assert_exit(result, 0)
+        data = json.loads(report.read_text())
+        self.assertEqual(data["options"]["scheme"], "none")
+        self.assertEqual(data["distortion"]["flips"], 0)
+        self.assertEqual(data["distortion"]["uncovered"], 0)
+        self.assertLess(data["distortion"]["stretch_l2_mean"], 1.08)
+        out = self.folder / "out.obj"
+        self.assertEqual(lines(out, "v"), lines(BUNNY, "v"))
+        self.assertEqual(faces(out), faces(BUNNY))
+
+
+if __name__ == "__main__":
+    main()
