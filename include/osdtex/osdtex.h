@@ -335,9 +335,9 @@ extern "C"
         size_t size;
         int32_t level; /* 0 .. OSDTEX_LEVEL_MAX, or OSDTEX_LEVEL_AUTO */
         int32_t reserved;
-        /* Scene units a texel is to cover, for OSDTEX_LEVEL_AUTO: leaf edges
-         * come to about ten texels. Usually scale / exemplar width. */
-        double texel;
+        /* Scene units that leaf edges are to come to, for OSDTEX_LEVEL_AUTO:
+         * see osdtex_exemplar_leaf_edge. */
+        double leaf_edge;
     } osdtex_surface_options;
 
     static inline osdtex_surface_options osdtex_surface_options_default(void)
@@ -490,6 +490,12 @@ extern "C"
         const osdtex_exemplar_options *options, osdtex_exemplar **out);
     OSDTEX_API const osdtex_exemplar_info *
     osdtex_exemplar_describe(const osdtex_exemplar *exemplar);
+
+    /* Length of leaf edges, in scene units, that suits the exemplar when its
+     * width covers `scale` scene units: 14 texels, but a 48th of the shorter
+     * side at most and a 128th at least. Seams run along leaf edges. */
+    OSDTEX_API double
+    osdtex_exemplar_leaf_edge(const osdtex_exemplar *exemplar, double scale);
 
     /* Whether an exemplar has a direction, or a lattice. */
     typedef struct osdtex_exemplar_structure

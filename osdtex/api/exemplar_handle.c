@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "file/picture.h"
 
+#include <math.h>
 #include <string.h>
 
 static const char *
@@ -196,6 +197,19 @@ const osdtex_exemplar_info *
 osdtex_exemplar_describe(const osdtex_exemplar *exemplar)
 {
     return exemplar ? &exemplar->info : NULL;
+}
+
+double
+osdtex_exemplar_leaf_edge(const osdtex_exemplar *exemplar, double scale)
+{
+    if (!exemplar)
+        return 0.0;
+
+    const osdtex_exemplar_info *info = &exemplar->info;
+    const double side = fmin(info->width, info->height);
+    const double texels = fmin(fmax(14.0, side / 128.0), side / 48.0);
+
+    return scale / info->source_width * texels;
 }
 
 void

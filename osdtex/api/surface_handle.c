@@ -1,38 +1,34 @@
-/* surface_handle.c -- refinement, with the level chosen by texel size. */
+/* surface_handle.c -- refinement, with the level chosen by leaf size. */
 #include "api/call.h"
 #include "api/handle.h"
 
 #include <math.h>
 
-/* Texels along a leaf edge at level auto: seams can then follow what is in the
- * picture, and a leaf is still more than a filter's width. */
-#define LEAF_TEXELS 10.0
-
-/* Texels along an edge from which faces that cannot be subdivided are coarse
- * against what is in a picture. */
-#define COARSE_TEXELS 40.0
+/* Wanted lengths from which faces that cannot be subdivided are coarse against
+ * what is in a picture. */
+#define COARSE 3.0
 
 static void
-note_level(otx_run *run, const osdtex_cage *cage, double texel, int32_t level)
+note_level(otx_run *run, const osdtex_cage *cage, double wanted, int32_t level)
 {
-    const double edge = cage->cage.mean_edge_length / texel;
+    const double edge = cage->cage.mean_edge_length;
 
     if (cage->cage.scheme != OTX_SCHEME_NONE)
         otx_note(
             run, OSDTEX_SEVERITY_INFO, "surface", OTX_NOWHERE,
-            "level %d: leaf edges come to about %g texels", level, LEAF_TEXELS);
-    else if (edge < COARSE_TEXELS)
+            "level %d: leaf edges come to about %.3g", level,
+            ldexp(edge, -level));
+    else if (edge < COARSE * wanted)
         otx_note(
             run, OSDTEX_SEVERITY_INFO, "surface", OTX_NOWHERE,
-            "a plain mesh, textured as it is: its edges come to %.3g texels",
-            edge);
+            "a plain mesh, textured as it is: its edges come to %.3g", edge);
     else
         otx_note(
             run, OSDTEX_SEVERITY_WARNING, "surface", OTX_NOWHERE,
-            "the edges of this plain mesh come to %.3g texels, and seams can "
-            "only run along them; --scheme bilinear subdivides it and keeps "
-            "its shape",
-            edge);
+            "the edges of this plain mesh come to %.3g, where %.3g would suit "
+            "the exemplar, and seams can only run along them; --scheme "
+            "bilinear subdivides it and keeps its shape",
+            edge, wanted);
 }
 
 static otx_status
@@ -48,12 +44,12 @@ choose_level(
             run, OSDTEX_ERROR_ARGUMENT, "surface", OTX_NOWHERE,
             "the level is from 0 to %d, or auto; not %d", OSDTEX_LEVEL_MAX,
             options->level);
-    if (!(options->texel > 0.0) || !isfinite(options->texel))
+    if (!(options->leaf_edge > 0.0) || !isfinite(options->leaf_edge))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "surface", OTX_NOWHERE,
-            "level auto needs the size of a texel, a positive number");
-    *level = otx_surface_level_for(&cage->cage, LEAF_TEXELS * options->texel);
-    note_level(run, cage, options->texel, *level);
+            "level auto needs the length of leaf edges, a positive number");
+    *level = otx_surface_level_for(&cage->cage, options->leaf_edge);
+    note_level(run, cage, options->leaf_edge, *level);
     return OSDTEX_OK;
 }
 

@@ -24,7 +24,7 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_LEVEL] =
         {"level", 0, OTX_FLAG_GROUP_MAIN, "N|auto",
          "times the cage is subdivided, 0 to 10 (default auto: leaf edges of "
-         "about ten texels)"},
+         "about a 48th of the exemplar, or 14 texels where that is less)"},
     [OTX_FLAG_SEED] =
         {"seed", 0, OTX_FLAG_GROUP_MAIN, "N",
          "another number, another result (default 1)"},

@@ -330,9 +330,8 @@ read_inputs(otx_session *session, job *j)
             "scale %g: a fifth of the diagonal of the cage's bounding box",
             cage->default_scale);
     }
-    j->surface_options.texel =
-        j->map_options.scale /
-        osdtex_exemplar_describe(j->exemplar)->source_width;
+    j->surface_options.leaf_edge =
+        osdtex_exemplar_leaf_edge(j->exemplar, j->map_options.scale);
     return osdtex_surface_refine(
         session->context, j->cage, &j->surface_options, &j->surface);
 }

@@ -200,8 +200,8 @@ read_mesh(
         return status;
     if (j->options.scale == 0.0)
         j->options.scale = osdtex_cage_describe(*cage)->default_scale;
-    j->surface_options.texel =
-        j->options.scale / osdtex_exemplar_describe(exemplar)->source_width;
+    j->surface_options.leaf_edge =
+        osdtex_exemplar_leaf_edge(exemplar, j->options.scale);
     return osdtex_surface_refine(
         session->context, *cage, &j->surface_options, out);
 }

@@ -224,7 +224,7 @@ otx_surface_level_for(const otx_cage *cage, double length)
 
     if (cage->scheme == OTX_SCHEME_NONE)
         return 0;
-    while (level < OTX_LEVEL_MAX && 0.5 * edge >= length)
+    while (level < OTX_LEVEL_MAX && edge > M_SQRT2 * length)
     {
         edge *= 0.5;
         ++level;

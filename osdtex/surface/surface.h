@@ -50,8 +50,8 @@ otx_status otx_surface_refine(
 /* Predicted bytes of the levels, before anything is spent. */
 size_t otx_surface_bytes(const otx_cage *cage, int32_t level);
 
-/* The level at which the mean leaf edge is nearest to `length` scene units
- * from above, at most OTX_LEVEL_MAX and at least 0 (at least 1 when the cage
+/* The level at which the mean leaf edge is nearest, as a ratio, to `length`
+ * scene units, at most OTX_LEVEL_MAX and at least 0 (at least 1 when the cage
  * has faces that are not quads and the scheme makes quads). */
 int32_t otx_surface_level_for(const otx_cage *cage, double length);
 

@@ -643,8 +643,8 @@ test_level_for(void **state)
 
     (void)state;
     assert_int_equal(otx_surface_level_for(&cage, 100.0), 0);
-    assert_int_equal(otx_surface_level_for(&cage, 1.01), 0);
-    assert_int_equal(otx_surface_level_for(&cage, 1.0), 1);
+    assert_int_equal(otx_surface_level_for(&cage, 1.42), 0);
+    assert_int_equal(otx_surface_level_for(&cage, 1.41), 1);
     assert_int_equal(otx_surface_level_for(&cage, 0.24), 3);
     assert_int_equal(otx_surface_level_for(&cage, 0.0), OTX_LEVEL_MAX);
     in = mesh_octahedron(run);
