@@ -1,7 +1,7 @@
 /* bake.c -- blocks on all threads, written in order.
  *
- * While one batch of blocks is computed, the one before is put: compressing
- * and writing is one more index of the loop, and the first to be taken. */
+ * While one batch of blocks is made and taken, the one before is put: writing
+ * is one more index of the loop, and the first to be taken. */
 #include "bake/bake.h"
 
 #include <stdlib.h>
@@ -10,16 +10,16 @@ static const char STAGE[] = "bake";
 
 enum
 {
-    BATCH = 64, /* blocks in flight, twice */
+    BATCH = OTX_BAKE_SLOTS / 2,
     BLOCK_TEXELS = OTX_PAGE_BLOCK * OTX_PAGE_BLOCK
 };
 
-/* Blocks of a page from `first` on, and their pixels. */
+/* Blocks of a page from `first` on, in slots from `slot` on. */
 typedef struct batch
 {
     int64_t first;
     int32_t count;
-    float *pixels; /* [BATCH * BLOCK_TEXELS * channels] */
+    int32_t slot;
 } batch;
 
 typedef struct job
@@ -31,27 +31,42 @@ typedef struct job
     int64_t overlaps[BATCH];
 } job;
 
-static float *
-pixels_of(const job *j, const batch *b, int32_t i)
-{
-    return b->pixels +
-           (size_t)i * BLOCK_TEXELS * (size_t)j->bake->source.channels;
-}
-
 static otx_status
 put_batch(const job *j)
 {
     for (int32_t i = 0; i < j->done.count; ++i)
     {
         const int64_t index = j->done.first + i;
-        const int32_t x = (int32_t)(index % j->page->columns);
-        const int32_t y = (int32_t)(index / j->page->columns);
 
         OTX_TRY(j->sink->put(
-            j->sink->user, j->page->level, x, y, pixels_of(j, &j->done, i),
-            (ptrdiff_t)otx_texel_block_width(j->page, x) *
-                j->bake->source.channels));
+            j->sink->user, j->done.slot + i, j->page->level,
+            (int32_t)(index % j->page->columns),
+            (int32_t)(index / j->page->columns)));
     }
+    return OSDTEX_OK;
+}
+
+static otx_status
+make_block(job *j, int32_t i, otx_worker *worker)
+{
+    const int32_t channels = j->bake->source.channels;
+    const int64_t index = j->next.first + i;
+    float *pixels =
+        OTX_NEW(worker->scratch, float, BLOCK_TEXELS *(size_t)channels);
+    otx_bake_block block = {
+        .level = j->page->level,
+        .x = (int32_t)(index % j->page->columns),
+        .y = (int32_t)(index / j->page->columns),
+        .pixels = pixels};
+
+    j->overlaps[i] = 0;
+    if (!pixels || !otx_texel_block(
+                       &j->bake->source, j->page, block.x, block.y,
+                       worker->scratch, pixels, &j->overlaps[i]))
+        return OSDTEX_ERROR_MEMORY;
+    block.stride =
+        (ptrdiff_t)otx_texel_block_width(j->page, block.x) * channels;
+    j->sink->take(j->sink->user, j->next.slot + i, worker->index, &block);
     return OSDTEX_OK;
 }
 
@@ -61,19 +76,8 @@ work(void *context, int64_t index, otx_worker *worker)
 {
     job *j = context;
 
-    if (index == 0)
-        return put_batch(j);
-
-    const int32_t i = (int32_t)index - 1;
-    const int64_t block = j->next.first + i;
-
-    j->overlaps[i] = 0;
-    return otx_texel_block(
-               &j->bake->source, j->page, (int32_t)(block % j->page->columns),
-               (int32_t)(block / j->page->columns), worker->scratch,
-               pixels_of(j, &j->next, i), &j->overlaps[i])
-               ? OSDTEX_OK
-               : OSDTEX_ERROR_MEMORY;
+    return index == 0 ? put_batch(j)
+                      : make_block(j, (int32_t)index - 1, worker);
 }
 
 /* Level 0 is three quarters of the work, and so on. */
@@ -118,18 +122,6 @@ bake_page(otx_run *run, otx_bake *bake, job *j)
     return OSDTEX_OK;
 }
 
-static bool
-make_batches(otx_run *run, const otx_bake *bake, const otx_page *page, job *out)
-{
-    const size_t values =
-        BATCH * (size_t)BLOCK_TEXELS * (size_t)bake->source.channels;
-
-    (void)page;
-    out->done.pixels = OTX_NEW(run->scratch, float, values);
-    out->next.pixels = OTX_NEW(run->scratch, float, values);
-    return out->done.pixels && out->next.pixels;
-}
-
 static otx_status
 bake_levels(
     otx_run *run, otx_bake *bake, int32_t tile, const otx_bake_sink *sink)
@@ -139,8 +131,9 @@ bake_levels(
     otx_page page = {.layout = layout, .tile = tile};
     job *j = OTX_ZNEW(run->scratch, job, 1);
 
-    if (!j || !make_batches(run, bake, &page, j))
+    if (!j)
         return otx_fail_memory(run, STAGE);
+    j->next.slot = BATCH;
     j->bake = bake;
     j->sink = sink;
     j->page = &page;

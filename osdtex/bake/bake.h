@@ -8,13 +8,32 @@
 
 #include "bake/texel.h"
 
-/* Where the blocks go, in file order: levels from 0 up, rows from the top. The
- * arguments are those of otx_exr_put. */
+enum
+{
+    OTX_BAKE_SLOTS = 128 /* blocks that are taken and not yet put */
+};
+
+/* A block of a level; y counts from the top, rows of pixels from the bottom. */
+typedef struct otx_bake_block
+{
+    int32_t level, x, y;
+    const float *pixels; /* the lower left texel */
+    ptrdiff_t stride;    /* floats from a row to the one above */
+} otx_bake_block;
+
+/* Where the blocks go.
+ *
+ *   take  gets a block as soon as it is made, on the thread that made it:
+ *         what can be done to blocks side by side. `slot` is its number until
+ *         it is put, `lane` the thread's. The pixels are gone afterwards.
+ *   put   gets the slots in file order, one at a time: levels from 0 up, rows
+ *         from the top. */
 typedef struct otx_bake_sink
 {
+    void (*take)(
+        void *user, int32_t slot, int32_t lane, const otx_bake_block *block);
     otx_status (*put)(
-        void *user, int32_t level, int32_t x, int32_t y, const float *pixels,
-        ptrdiff_t stride);
+        void *user, int32_t slot, int32_t level, int32_t x, int32_t y);
     void *user;
 } otx_bake_sink;
 

@@ -97,14 +97,14 @@ typedef struct target
     otx_exr_writer *exr;
     int32_t preview_level; /* -1 none */
     otx_image preview;
+    otx_exr_chunk chunks[OTX_BAKE_SLOTS];
 } target;
 
 static void
-copy_block(
-    target *t, int32_t x, int32_t y, const float *pixels, ptrdiff_t stride)
+copy_block(const target *t, const otx_bake_block *block)
 {
     const otx_image *image = &t->preview;
-    const int32_t left = x * OTX_EXR_TILE, top = y * OTX_EXR_TILE;
+    const int32_t left = block->x * OTX_EXR_TILE, top = block->y * OTX_EXR_TILE;
     const int32_t wide = image->width - left, high = image->height - top;
     const int32_t width = wide < OTX_EXR_TILE ? wide : OTX_EXR_TILE;
     const int32_t height = high < OTX_EXR_TILE ? high : OTX_EXR_TILE;
@@ -112,19 +112,43 @@ copy_block(
     for (int32_t row = 0; row < height; ++row)
         memcpy(
             otx_image_at(image, left, image->height - top - height + row),
-            pixels + row * stride,
-            (size_t)width * (size_t)image->channels * sizeof *pixels);
+            block->pixels + row * block->stride,
+            (size_t)width * (size_t)image->channels * sizeof *block->pixels);
 }
 
-static otx_status
-put(void *user, int32_t level, int32_t x, int32_t y, const float *pixels,
-    ptrdiff_t stride)
+static void
+take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 {
     target *t = user;
 
-    if (level == t->preview_level)
-        copy_block(t, x, y, pixels, stride);
-    return otx_exr_put(t->exr, level, x, y, pixels, stride);
+    if (block->level == t->preview_level)
+        copy_block(t, block);
+    otx_exr_pack(
+        t->exr, lane, block->level, block->x, block->y, block->pixels,
+        block->stride, &t->chunks[slot]);
+}
+
+static otx_status
+put(void *user, int32_t slot, int32_t level, int32_t x, int32_t y)
+{
+    target *t = user;
+
+    return otx_exr_put_packed(t->exr, level, x, y, &t->chunks[slot]);
+}
+
+/* Room for what is taken and not yet put. */
+static otx_status
+make_slots(otx_run *run, target *t)
+{
+    const size_t bytes = otx_exr_packed_bytes(t->exr);
+
+    for (int32_t i = 0; i < OTX_BAKE_SLOTS; ++i)
+    {
+        t->chunks[i].bytes = OTX_NEW(run->scratch, uint8_t, bytes);
+        if (!t->chunks[i].bytes)
+            return otx_fail_memory(run, STAGE);
+    }
+    return OSDTEX_OK;
 }
 
 static otx_exr_options
@@ -197,7 +221,7 @@ write_tile(const writer *w, otx_bake *bake, int32_t tile, bool preview)
     otx_exr_options options = exr_options(w, kind);
     const otx_exr_size size = {side, side, bake->source.channels};
     target t = {.preview_level = -1};
-    const otx_bake_sink sink = {put, &t};
+    const otx_bake_sink sink = {take, put, &t};
     char suffix[SUFFIX_BYTES];
     const char *path;
 
@@ -216,6 +240,7 @@ write_tile(const writer *w, otx_bake *bake, int32_t tile, bool preview)
     options.attributes = &comment;
     options.attribute_count = comment.text != NULL;
     OTX_TRY(otx_exr_begin(w->run, w->set, path, size, &options, &t.exr));
+    OTX_TRY(make_slots(w->run, &t));
     OTX_TRY(otx_bake_tile(w->run, bake, tile, &sink));
     OTX_TRY(otx_exr_end(t.exr));
     return preview ? write_preview(w, w->layout->tiles[tile], &t.preview)

@@ -8,6 +8,7 @@
 #define OTX_FILE_EXR_H
 
 #include "file/atomic_file.h"
+#include "file/exr_chunk.h"
 #include "file/picture.h"
 
 enum
@@ -96,6 +97,21 @@ otx_status otx_exr_begin(
 otx_status otx_exr_put(
     otx_exr_writer *writer, int32_t level, int32_t x, int32_t y,
     const float *pixels, ptrdiff_t stride);
+
+/* The same in two steps: packing, which every thread of run->pool can do for
+ * other chunks at the same time, and putting, one by one in file order.
+ *
+ *   lane   the thread's number; no two at a time in one lane
+ *   chunk  its bytes have room for otx_exr_packed_bytes
+ *
+ * What is wrong with the pixels is said when the chunk is put. */
+void otx_exr_pack(
+    const otx_exr_writer *writer, int32_t lane, int32_t level, int32_t x,
+    int32_t y, const float *pixels, ptrdiff_t stride, otx_exr_chunk *chunk);
+otx_status otx_exr_put_packed(
+    otx_exr_writer *writer, int32_t level, int32_t x, int32_t y,
+    const otx_exr_chunk *chunk);
+size_t otx_exr_packed_bytes(const otx_exr_writer *writer);
 
 /* Writes the offsets and closes the file. All chunks must be there. */
 otx_status otx_exr_end(otx_exr_writer *writer);

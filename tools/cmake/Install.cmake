@@ -18,7 +18,7 @@ install(FILES docs/man/osdtex.1
 # a consumer shall not need the (partly broken) CMake packages of the
 # dependencies, only the libraries themselves.
 set(OSDTEX_PRIVATE_LIBS -losdCPU -lOpenEXRCore -lOpenColorIO -lfftw3f
-  -lcholmod -lembree3 -lpng -ltiff -ljpeg -ljansson -lxxhash -lstdc++
+  -lcholmod -lembree3 -lpng -ltiff -ljpeg -ljansson -lxxhash -ldeflate -lstdc++
   -lpthread -lm)
 list(JOIN OSDTEX_PRIVATE_LIBS " " OSDTEX_PRIVATE_LIBS_TEXT)
 

@@ -82,13 +82,15 @@ typedef struct flat_levels
     otx_image levels[OTX_PYRAMID_MAX_LEVELS];
 } flat_levels;
 
-static inline otx_status
-flat_put(
-    void *user, int32_t level, int32_t x, int32_t y, const float *pixels,
-    ptrdiff_t stride)
+static inline void
+flat_take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 {
-    const otx_image *image = &((flat_levels *)user)->levels[level];
-    const int32_t left = x * OTX_PAGE_BLOCK, top = y * OTX_PAGE_BLOCK;
+    const otx_image *image = &((flat_levels *)user)->levels[block->level];
+    const int32_t left = block->x * OTX_PAGE_BLOCK;
+    const int32_t top = block->y * OTX_PAGE_BLOCK;
+
+    (void)slot;
+    (void)lane;
 
     for (int32_t j = 0; j < OTX_PAGE_BLOCK && top + j < image->height; ++j)
         for (int32_t i = 0; i < OTX_PAGE_BLOCK && left + i < image->width; ++i)
@@ -99,9 +101,20 @@ flat_put(
 
             memcpy(
                 otx_image_at(image, left + i, image->height - 1 - top - j),
-                pixels + (high - 1 - j) * stride + i * image->channels,
-                (size_t)image->channels * sizeof *pixels);
+                block->pixels + (high - 1 - j) * block->stride +
+                    i * image->channels,
+                (size_t)image->channels * sizeof *block->pixels);
         }
+}
+
+static inline otx_status
+flat_put(void *user, int32_t slot, int32_t level, int32_t x, int32_t y)
+{
+    (void)user;
+    (void)slot;
+    (void)level;
+    (void)x;
+    (void)y;
     return OSDTEX_OK;
 }
 
@@ -111,7 +124,7 @@ flat_bake(
     const otx_layout *layout, const otx_bake_options *options, int32_t tile)
 {
     flat_levels out = {otx_pyramid_count(layout->side, layout->side), {{0}}};
-    const otx_bake_sink sink = {flat_put, &out};
+    const otx_bake_sink sink = {flat_take, flat_put, &out};
     otx_bake bake;
 
     assert_int_equal(

@@ -392,7 +392,7 @@ it_can_be_stopped_anywhere(void **state)
         const otx_layout layout =
             flat_layout(run, mapping, OTX_LAYOUT_ATLAS, 128, 4);
         flat_levels out = {otx_pyramid_count(128, 128), {{0}}};
-        const otx_bake_sink sink = {flat_put, &out};
+        const otx_bake_sink sink = {flat_take, flat_put, &out};
         int32_t left = calls;
         otx_bake bake;
 
