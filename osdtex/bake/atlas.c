@@ -1,7 +1,7 @@
-/* atlas.c -- sizes from areas, shelves from sizes. */
+/* atlas.c -- sizes from extents, shelves from sizes. */
 #include "bake/atlas.h"
 
-#include "math/vec.h"
+#include "bake/extent.h"
 
 #include <string.h>
 
@@ -17,46 +17,14 @@ enum
 typedef struct packing
 {
     int32_t face_count;
-    int32_t side;        /* of a tile */
-    const double *roots; /* [face_count] square roots of the areas */
-    int32_t *order;      /* [face_count], large cells first */
-    int32_t *cells;      /* [face_count] sides */
-    int32_t *places;     /* [face_count * 3] x, y, tile */
+    int32_t side;          /* of a tile */
+    const double *extents; /* [face_count * 2] of the blocks, scene units */
+    int32_t *order;        /* [face_count], high cells first */
+    int32_t *cells;        /* [face_count * 2] widths and heights */
+    int32_t *places;       /* [face_count * 3] x, y, tile */
 } packing;
 
 /* ---- sizes --------------------------------------------------------------- */
-
-static double
-polygon_area(const otx_surface *surface, int32_t face)
-{
-    const otx_level *leaf = otx_surface_leaf(surface);
-    const int32_t *verts = leaf->face_verts + leaf->face_first[face];
-    const int32_t size = otx_level_face_size(leaf, face);
-    const otx_vec3 origin = otx_vec3_load(surface->points, verts[0]);
-    otx_vec3 sum = {0.0, 0.0, 0.0};
-
-    for (int32_t k = 2; k < size; ++k)
-        sum = otx_vec3_add(
-            sum, otx_vec3_cross(
-                     otx_vec3_sub(
-                         otx_vec3_load(surface->points, verts[k - 1]), origin),
-                     otx_vec3_sub(
-                         otx_vec3_load(surface->points, verts[k]), origin)));
-    return 0.5 * otx_vec3_length(sum);
-}
-
-/* Side of the square with the area of a cage face on the limit surface. */
-static double
-face_root(const otx_surface *surface, int32_t face)
-{
-    double area = 0.0;
-    int32_t first, end;
-
-    otx_surface_leaves(surface, 0, face, &first, &end);
-    for (int32_t f = first; f < end; ++f)
-        area += polygon_area(surface, f);
-    return sqrt(area);
-}
 
 /* Of a block of `texels` with its margins: a multiple of twice the margin that
  * holds at least a block of that size, in a tile. */
@@ -84,15 +52,15 @@ place(packing *p)
     for (int32_t i = 0; i < p->face_count; ++i)
     {
         const int32_t face = p->order[i];
-        const int32_t cell = p->cells[face];
+        const int32_t *cell = p->cells + 2 * (size_t)face;
 
-        if (x + cell > p->side)
+        if (x + cell[0] > p->side)
         {
             x = 0;
             y += height;
             height = 0;
         }
-        if (y + cell > p->side)
+        if (y + cell[1] > p->side)
         {
             x = y = height = 0;
             ++tile;
@@ -100,9 +68,9 @@ place(packing *p)
         memcpy(
             p->places + 3 * (size_t)face, (const int32_t[]){x, y, tile},
             3 * sizeof *p->places);
-        x += cell;
-        /* The first of a shelf is the largest: the order is by size. */
-        height = height > cell ? height : cell;
+        x += cell[0];
+        /* The first of a shelf is the highest: the order is by height. */
+        height = height > cell[1] ? height : cell[1];
     }
     return tile + 1;
 }
@@ -110,8 +78,8 @@ place(packing *p)
 static int32_t
 pack(packing *p, double density, int32_t margin)
 {
-    for (int32_t f = 0; f < p->face_count; ++f)
-        p->cells[f] = cell_side(density * p->roots[f], margin, p->side);
+    for (size_t i = 0; i < 2 * (size_t)p->face_count; ++i)
+        p->cells[i] = cell_side(density * p->extents[i], margin, p->side);
     return place(p);
 }
 
@@ -121,9 +89,9 @@ fit(packing *p, int32_t margin)
 {
     double low = 0.0, high = 0.0;
 
-    for (int32_t f = 0; f < p->face_count; ++f)
-        high = fmax(high, p->roots[f]);
-    /* Where the largest face alone fills the tile. */
+    for (size_t i = 0; i < 2 * (size_t)p->face_count; ++i)
+        high = fmax(high, p->extents[i]);
+    /* Where the longest face alone fills the tile. */
     high = high > 0.0 ? p->side / high : 1.0;
     if (pack(p, low, margin) > 1)
         return 0.0;
@@ -147,10 +115,11 @@ share_of_blocks(const packing *p, int32_t margin)
 
     for (int32_t f = 0; f < p->face_count; ++f)
     {
-        const double block = p->cells[f] - 2 * margin;
+        const double width = p->cells[2 * (size_t)f];
+        const double height = p->cells[2 * (size_t)f + 1];
 
-        blocks += block * block;
-        cells += (double)p->cells[f] * p->cells[f];
+        blocks += (width - 2 * margin) * (height - 2 * margin);
+        cells += width * height;
     }
     return blocks / cells;
 }
@@ -176,7 +145,13 @@ settle(packing *p, const otx_atlas_options *options, otx_atlas *out)
     }
 }
 
-/* Orders faces by area, ties by index, with a merge of neighbours: stable. */
+static double
+height_of(const packing *p, int32_t face)
+{
+    return p->extents[2 * (size_t)face + 1];
+}
+
+/* Orders faces by height, ties by index, with a merge of neighbours: stable. */
 static bool
 sort_faces(otx_arena *scratch, packing *p)
 {
@@ -196,8 +171,8 @@ sort_faces(otx_arena *scratch, packing *p)
             int64_t a = start, b = middle;
 
             for (int64_t k = start; k < end; ++k)
-                to[k] = b == end || (a < middle &&
-                                     p->roots[from[a]] >= p->roots[from[b]])
+                to[k] = b == end || (a < middle && height_of(p, from[a]) >=
+                                                       height_of(p, from[b]))
                             ? from[a++]
                             : from[b++];
         }
@@ -212,24 +187,6 @@ sort_faces(otx_arena *scratch, packing *p)
 
 /* ---- coordinates --------------------------------------------------------- */
 
-/* Corner k of a face of n in the unit square: a quad fills it, a triangle
- * takes half of it, others are regular. */
-static otx_vec2
-corner_in_block(int32_t n, int32_t k)
-{
-    static const otx_vec2 square[4] = {
-        {0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
-
-    if (n == 4)
-        return square[k];
-    if (n == 3)
-        return square[k == 2 ? 3 : k];
-
-    const otx_vec2 ray = otx_vec2_polar(2.0 * OTX_PI * k / n);
-
-    return (otx_vec2){0.5 + 0.5 * ray.x, 0.5 + 0.5 * ray.y};
-}
-
 static void
 set_uvs(const otx_cage *cage, const packing *p, const otx_atlas *atlas)
 {
@@ -238,17 +195,19 @@ set_uvs(const otx_cage *cage, const packing *p, const otx_atlas *atlas)
         const int32_t first = cage->face_first[f];
         const int32_t n = cage->face_first[f + 1] - first;
         const int32_t *at = p->places + 3 * (size_t)f;
-        const double block = p->cells[f] - 2 * atlas->margin;
+        const int32_t *cell = p->cells + 2 * (size_t)f;
+        const double width = cell[0] - 2 * atlas->margin;
+        const double height = cell[1] - 2 * atlas->margin;
 
         for (int32_t k = 0; k < n; ++k)
         {
-            const otx_vec2 c = corner_in_block(n, k);
+            const otx_vec2 c = otx_extent_corner(n, k);
             float *uv = atlas->uvs + 2 * (size_t)(first + k);
 
             uv[0] =
-                (float)(at[2] % OTX_ATLAS_COLUMNS + (at[0] + atlas->margin + block * c.x) / p->side);
+                (float)(at[2] % OTX_ATLAS_COLUMNS + (at[0] + atlas->margin + width * c.x) / p->side);
             uv[1] =
-                (float)(at[2] / OTX_ATLAS_COLUMNS + (at[1] + atlas->margin + block * c.y) / p->side);
+                (float)(at[2] / OTX_ATLAS_COLUMNS + (at[1] + atlas->margin + height * c.y) / p->side);
         }
     }
 }
@@ -299,23 +258,22 @@ otx_atlas_pack(
     const otx_cage *cage = surface->cage;
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     const size_t faces = (size_t)cage->face_count;
-    double *roots = OTX_NEW(run->scratch, double, faces);
+    double *extents = OTX_NEW(run->scratch, double, 2 * faces);
     packing p = {
         .face_count = cage->face_count,
         .side = options->side,
-        .roots = roots,
+        .extents = extents,
         .order = OTX_NEW(run->scratch, int32_t, faces),
-        .cells = OTX_NEW(run->scratch, int32_t, faces),
+        .cells = OTX_NEW(run->scratch, int32_t, 2 * faces),
         .places = OTX_NEW(run->scratch, int32_t, 3 * faces),
     };
 
     *out = (otx_atlas){0};
     OTX_TRY(check(run, options));
     out->uvs = OTX_NEW(run->arena, float, 2 * (size_t)cage->corner_count);
-    if (!roots || !p.order || !p.cells || !p.places || !out->uvs)
+    if (!extents || !p.order || !p.cells || !p.places || !out->uvs)
         return otx_fail_memory(run, STAGE);
-    for (int32_t f = 0; f < cage->face_count; ++f)
-        roots[f] = face_root(surface, f);
+    OTX_TRY(otx_extent_measure(run, surface, extents));
     if (!sort_faces(run->scratch, &p))
         return otx_fail_memory(run, STAGE);
     settle(&p, options, out);

@@ -1,9 +1,10 @@
-/* atlas.h -- a square block of texture for every face of the cage.
+/* atlas.h -- a block of texture for every face of the cage.
  *
- * Blocks are as large as their faces are on the limit surface, and packed in
- * shelves; what does not fit goes to further UDIM tiles. A cell (a block and
- * its margins) is a multiple of twice the margin and starts at one, so that
- * texels of the first mip levels never straddle two cells. */
+ * Blocks are as large as their faces are on the limit surface (extent.h), and
+ * packed in shelves; what does not fit goes to further UDIM tiles. The sides
+ * of a cell (a block and its margins) are multiples of twice the margin and so
+ * is its place, so that texels of the first mip levels never straddle two
+ * cells. */
 #ifndef OTX_BAKE_ATLAS_H
 #define OTX_BAKE_ATLAS_H
 
