@@ -123,12 +123,13 @@ otx_page_find_seams(
 /* ---- blocks ---------------------------------------------------------------
  */
 
-/* Blocks that an interval of texels touches, within [0, columns). */
+/* Blocks that an interval of texels touches, aprons included, within
+ * [0, columns). */
 static void
 cut(double low, double high, int32_t columns, int32_t *first, int32_t *end)
 {
-    const double a = floor(low / OTX_PAGE_BLOCK);
-    const double b = floor(high / OTX_PAGE_BLOCK) + 1.0;
+    const double a = floor((low - OTX_PAGE_APRON) / OTX_PAGE_BLOCK);
+    const double b = floor((high + OTX_PAGE_APRON) / OTX_PAGE_BLOCK) + 1.0;
 
     *first = a > 0.0 ? a < columns ? (int32_t)a : columns : 0;
     *end = b > 0.0 ? b < columns ? (int32_t)b : columns : 0;

@@ -7,6 +7,8 @@
  * walk from the nearest rim ends, and far beyond, the rim itself. */
 #include "bake/texel.h"
 
+#include "bake/sharpen.h"
+
 #include <string.h>
 
 enum
@@ -14,15 +16,25 @@ enum
     PIECES = 1024, /* kept between samples; a power of two */
     STEPS = 96,    /* of a walk */
     CELL = 8,      /* texels of a far cell's side */
-    SAMPLES_MAX = 4
+    SAMPLES_MAX = 4,
+    SIDE_MAX = OTX_PAGE_BLOCK + 2 * OTX_PAGE_APRON,
+    CELLS = (SIDE_MAX + CELL - 1) / CELL /* a row */
 };
 
-/* A block at work. */
+/* How far facets may be apart on what they share, in texels of the exemplar:
+ * rounding, and the bend of a curved surface within a texel. */
+static const double AGREED = 0.0625;
+
+/* A block at work, with an apron of texels around it. */
 typedef struct block
 {
     const otx_texel_source *source;
     const otx_page *page;
-    otx_raster raster;
+    int32_t width, height; /* without the apron */
+    int32_t left, below;   /* of the apron; 0 at the picture's border */
+    otx_raster raster;     /* with it */
+    float *pixels;         /* likewise */
+    int32_t *owners;       /* charts, -1 beyond the rims */
     otx_raster_near near_rim, near_seam;
     otx_texel_piece *pieces; /* [PIECES], by hash of their id */
     const int32_t *rims;     /* [rim_count] near the block */
@@ -268,16 +280,22 @@ color_at(const block *b, const otx_walk *walk, double share, float *color)
         color);
 }
 
+/* The exemplar's UV at a texel position, by the plane of a piece. */
+static otx_vec2
+piece_uv(const otx_texel_piece *piece, otx_vec2 at)
+{
+    return (otx_vec2){
+        piece->uv.x + at.x * piece->uv_dx.x + at.y * piece->uv_dy.x,
+        piece->uv.y + at.x * piece->uv_dx.y + at.y * piece->uv_dy.y};
+}
+
 /* Color of a sample on the surface. */
 static void
 sample_color(
     const block *b, const otx_texel_piece *piece, otx_vec2 at, float *color)
 {
-    const otx_vec2 uv = {
-        piece->uv.x + at.x * piece->uv_dx.x + at.y * piece->uv_dy.x,
-        piece->uv.y + at.x * piece->uv_dx.y + at.y * piece->uv_dy.y};
-
-    otx_texture_probe(&b->source->texture, &piece->probes, uv, color);
+    otx_texture_probe(
+        &b->source->texture, &piece->probes, piece_uv(piece, at), color);
 }
 
 static int64_t
@@ -327,42 +345,107 @@ owner_of(const block *b, int32_t x, int32_t y, int32_t *first)
     return best;
 }
 
-/* Whether all samples of a texel are on one facet. */
-static bool
-is_on_one_facet(const block *b, int32_t x, int32_t y)
+/* What runs through a texel that one chart owns. */
+typedef enum texel_state
 {
-    const int64_t id = sample_id(b, x, y, 0);
+    TEXEL_WHOLE,  /* nothing, and one lookup shows it: a close view */
+    TEXEL_SMOOTH, /* nothing */
+    TEXEL_TORN    /* a seam, or a rim */
+} texel_state;
 
-    for (int32_t s = 1; s < b->raster.n * b->raster.n; ++s)
-        if (sample_id(b, x, y, s) != id)
+/* By whether all facets in the texel agree on what is at its centre.
+ *
+ *   first  a sample on the texel's chart
+ *   uv     out: what is at the centre, in the exemplar */
+static texel_state
+state_of(block *b, int32_t x, int32_t y, int32_t first, otx_vec2 *uv)
+{
+    const otx_image *image = &b->source->texture.pyramid.levels[0];
+    const otx_vec2 centre = otx_raster_texel(&b->raster, x, y);
+    const otx_texel_piece *piece = piece_of(b, sample_id(b, x, y, first));
+    const int32_t chart = piece->chart;
+    bool is_plain = piece->is_plain;
+    int64_t seen = piece->id;
+
+    *uv = piece_uv(piece, centre);
+    for (int32_t s = 0; s < b->raster.n * b->raster.n; ++s)
+    {
+        const int64_t id = sample_id(b, x, y, s);
+
+        if (id == seen)
+            continue;
+        if (id < 0)
+            return TEXEL_TORN;
+        seen = id;
+        piece = piece_of(b, id);
+        is_plain = is_plain && piece->is_plain;
+
+        const otx_vec2 d = otx_vec2_sub(piece_uv(piece, centre), *uv);
+
+        if (piece->chart != chart || !(fabs(d.x) * image->width < AGREED) ||
+            !(fabs(d.y) * image->height < AGREED))
+            return TEXEL_TORN;
+    }
+    return is_plain ? TEXEL_WHOLE : TEXEL_SMOOTH;
+}
+
+static bool
+contains(const otx_texel_piece *piece, otx_vec2 at)
+{
+    for (int k = 0; k < 3; ++k)
+        if (piece->at[k] + at.x * piece->dx[k] + at.y * piece->dy[k] < 0.0)
             return false;
     return true;
 }
 
+/* The facet at a place within a texel, of those that its samples have: first
+ * that of the sample nearest to it. */
+static int64_t
+facet_near(block *b, int32_t x, int32_t y, otx_vec2 at)
+{
+    const int32_t n = b->raster.n, samples = n * n;
+    const int32_t i = (int32_t)((at.x - b->raster.origin.x - x) * n);
+    const int32_t j = (int32_t)((at.y - b->raster.origin.y - y) * n);
+    const int64_t nearest = sample_id(b, x, y, j * n + i);
+
+    for (int32_t s = 0; s < samples; ++s)
+    {
+        const int64_t id = sample_id(b, x, y, (j * n + i + s) % samples);
+
+        if (id >= 0 && contains(piece_of(b, id), at))
+            return id;
+    }
+    return nearest;
+}
+
 /* A texel that faces reach into: `chart` is its owner's, which sample `first`
- * has. */
+ * has. Where a seam runs through it more samples are taken, so that each side
+ * has its share. */
 static void
 texel_color(
     block *b, int32_t x, int32_t y, int32_t chart, int32_t first, float *out)
 {
-    const int32_t n = b->raster.n, samples = n * n;
-    const int32_t channels = b->source->channels;
+    otx_vec2 uv;
+    const texel_state state = state_of(b, x, y, first, &uv);
+    const int32_t n = state == TEXEL_TORN ? SAMPLES_MAX : b->raster.n;
     const int64_t home = sample_id(b, x, y, first);
+    const int32_t channels = b->source->channels;
     float color[OTX_IMAGE_MAX_CHANNELS];
     double sum[OTX_IMAGE_MAX_CHANNELS] = {0.0};
 
-    /* Where the exemplar is magnified, one bilinear lookup is what is seen. */
-    if (is_on_one_facet(b, x, y) && piece_of(b, home)->is_plain)
+    if (state == TEXEL_WHOLE)
     {
-        sample_color(
-            b, piece_of(b, home), otx_raster_texel(&b->raster, x, y), out);
+        otx_texture_probe(
+            &b->source->texture, &(otx_texture_probes){.count = 1}, uv, out);
         return;
     }
-    for (int32_t s = 0; s < samples; ++s)
+    for (int32_t s = 0; s < n * n; ++s)
     {
-        const int64_t id = sample_id(b, x, y, s);
-        const otx_vec2 at =
-            otx_raster_sample(&b->raster, x * n + s % n, y * n + s / n);
+        const otx_vec2 at = {
+            b->raster.origin.x + x + (s % n + 0.5) / n,
+            b->raster.origin.y + y + (s / n + 0.5) / n};
+        const int64_t id =
+            n == b->raster.n ? sample_id(b, x, y, s) : facet_near(b, x, y, at);
 
         if (id >= 0 && b->source->layout->chart[id >> 16] == chart)
             sample_color(b, piece_of(b, id), at, color);
@@ -376,7 +459,7 @@ texel_color(
             sum[c] += color[c];
     }
     for (int32_t c = 0; c < channels; ++c)
-        out[c] = (float)(sum[c] / samples);
+        out[c] = (float)(sum[c] / (n * n));
 }
 
 /* ---- seams ----------------------------------------------------------------
@@ -529,7 +612,7 @@ beyond_color(block *b, int32_t x, int32_t y, int32_t *cells, float *out)
     const otx_vec2 at = otx_raster_texel(&b->raster, x, y);
     const int32_t near =
         b->near_rim.edges[(size_t)y * (size_t)b->raster.width + (size_t)x];
-    int32_t *cell = &cells[y / CELL * (OTX_PAGE_BLOCK / CELL) + x / CELL];
+    int32_t *cell = &cells[y / CELL * CELLS + x / CELL];
     otx_walk walk;
 
     if (near >= 0)
@@ -622,31 +705,59 @@ draw_seams(block *b, int64_t block_index)
 }
 
 static void
-shade(block *b, float *pixels)
+shade_texel(block *b, int32_t x, int32_t y, int32_t *cells)
 {
-    int32_t cells[(OTX_PAGE_BLOCK / CELL) * (OTX_PAGE_BLOCK / CELL)];
+    const size_t i = (size_t)y * (size_t)b->raster.width + (size_t)x;
+    float *out = b->pixels + i * (size_t)b->source->channels;
+    int32_t first = 0;
+    const int32_t chart = owner_of(b, x, y, &first);
+
+    b->owners[i] = chart;
+    if (chart < 0)
+        beyond_color(b, x, y, cells, out);
+    else if (b->source->kind == OTX_TEXEL_COLOR)
+    {
+        texel_color(b, x, y, chart, first, out);
+        blend_texel(b, x, y, first, out);
+    }
+    else
+        texel_numbers(b, x, y, first, out);
+}
+
+static void
+shade(block *b)
+{
+    int32_t cells[CELLS * CELLS];
 
     for (size_t i = 0; i < sizeof cells / sizeof *cells; ++i)
         cells[i] = -2; /* not looked for yet */
     for (int32_t y = 0; y < b->raster.height; ++y)
         for (int32_t x = 0; x < b->raster.width; ++x)
-        {
-            float *out =
-                pixels + ((size_t)y * (size_t)b->raster.width + (size_t)x) *
-                             (size_t)b->source->channels;
-            int32_t first = 0;
-            const int32_t chart = owner_of(b, x, y, &first);
+            shade_texel(b, x, y, cells);
+}
 
-            if (chart < 0)
-                beyond_color(b, x, y, cells, out);
-            else if (b->source->kind == OTX_TEXEL_COLOR)
-            {
-                texel_color(b, x, y, chart, first, out);
-                blend_texel(b, x, y, first, out);
-            }
-            else
-                texel_numbers(b, x, y, first, out);
-        }
+/* The block's place and size, and the apron that sharpening looks at. */
+static void
+place_block(block *b, int32_t x, int32_t y)
+{
+    const otx_page *page = b->page;
+    const int32_t top = page->side - y * OTX_PAGE_BLOCK;
+    const int32_t apron = b->source->kind == OTX_TEXEL_COLOR && page->level == 0
+                              ? OTX_PAGE_APRON
+                              : 0;
+    const int32_t left = x * OTX_PAGE_BLOCK;
+
+    b->width = otx_texel_block_width(page, x);
+    b->height = otx_texel_block_width(page, y);
+    b->left = left > 0 ? apron : 0;
+    b->below = top > b->height ? apron : 0;
+    b->raster = (otx_raster){
+        .origin = {left - b->left, top - b->height - b->below},
+        .width =
+            b->width + b->left + (left + b->width < page->side ? apron : 0),
+        .height = b->height + b->below + (y > 0 ? apron : 0),
+        .n = otx_texel_samples(b->source, page->level),
+    };
 }
 
 static bool
@@ -654,27 +765,43 @@ begin(block *b, int32_t x, int32_t y, otx_arena *scratch)
 {
     const otx_page *page = b->page;
     const int64_t index = (int64_t)y * page->columns + x;
-    const int32_t top = page->side - y * OTX_PAGE_BLOCK;
 
-    b->raster = (otx_raster){
-        .width = otx_texel_block_width(page, x),
-        .height = otx_texel_block_width(page, y),
-        .n = otx_texel_samples(b->source, page->level),
-    };
-    b->raster.origin =
-        (otx_vec2){(double)x * OTX_PAGE_BLOCK, (double)top - b->raster.height};
+    place_block(b, x, y);
     b->rims = page->near_rims.items + page->near_rims.first[index];
     b->rim_count =
         page->near_rims.first[index + 1] - page->near_rims.first[index];
     b->far_rim = page->far_rim[index];
+
+    const size_t texels = (size_t)b->raster.width * (size_t)b->raster.height;
+
     b->pieces = OTX_NEW(scratch, otx_texel_piece, PIECES);
-    if (!b->pieces || !otx_raster_begin(scratch, &b->raster) ||
+    b->owners = OTX_NEW(scratch, int32_t, texels);
+    b->pixels = OTX_NEW(scratch, float, texels *(size_t)b->source->channels);
+    if (!b->pieces || !b->owners || !b->pixels ||
+        !otx_raster_begin(scratch, &b->raster) ||
         !otx_raster_near_begin(scratch, &b->raster, &b->near_rim) ||
         !otx_raster_near_begin(scratch, &b->raster, &b->near_seam))
         return false;
     for (int32_t i = 0; i < PIECES; ++i)
         b->pieces[i].id = -1;
     return true;
+}
+
+/* Without the apron: only level 0 has one, and only it is sharpened. */
+static void
+finish(const block *b, float *pixels)
+{
+    const size_t values = (size_t)b->raster.width * (size_t)b->raster.height *
+                          (size_t)b->source->channels;
+    const otx_sharpen_grid grid = {
+        b->raster.width, b->raster.height, b->source->channels, b->pixels,
+        b->owners};
+
+    if (b->page->level == 0 && b->source->kind == OTX_TEXEL_COLOR)
+        otx_sharpen_texels(
+            &grid, b->left, b->below, b->width, b->height, pixels);
+    else
+        memcpy(pixels, b->pixels, values * sizeof *pixels);
 }
 
 bool
@@ -689,6 +816,7 @@ otx_texel_block(
     *overlaps += draw_faces(&b, (int64_t)y * page->columns + x);
     draw_rims(&b);
     draw_seams(&b, (int64_t)y * page->columns + x);
-    shade(&b, pixels);
+    shade(&b);
+    finish(&b, pixels);
     return true;
 }

@@ -110,6 +110,11 @@ otx_texture_measure(const otx_texture *texture, otx_vec2 uv_dx, otx_vec2 uv_dy)
     const otx_vec2 b = {uv_dy.x * image->width, uv_dy.y * image->height};
     const int32_t last = texture->pyramid.count - 1;
     otx_vec2 major;
+
+    /* No axis is longer than this sum: a close view, without the axes. */
+    if (otx_vec2_dot(a, a) + otx_vec2_dot(b, b) <= 1.0)
+        return (otx_texture_probes){.count = 1};
+
     const double minor = ellipse_axes(a, b, &major);
     const double length = otx_vec2_length(major);
 

@@ -239,11 +239,21 @@ seams_are_blended_within_their_width(void **state)
                 if (!e.on_surface || e.beyond > (i == 0 ? 0.0 : 3.0) ||
                     e.y < e.face / N || e.y > e.face / N + 1)
                     continue;
-                if (fabs(p[0] - shown) > 2e-3)
+                /* Sharpening takes off a twelfth of what the neighbours are
+                 * apart: of the ramp's bend at its ends, and of the half blend
+                 * that margins lack where a seam runs into them. */
+                const double rim = fabs(e.y - round(e.y)) * unit;
+                const double bend = rim < 1.0 ? 0.1 / 12
+                                    : fabs(fabs(d) - BLEND / 2) < 1.5
+                                        ? 0.2 / BLEND / 12
+                                        : 0.0;
+
+                if (fabs(p[0] - shown) > 2e-3 + bend)
                     fail_msg(
-                        "tear %d texel %d %d: %g, not %g", i, x, y,
+                        "tear %d texel %d %d at %g: %g, not %g", i, x, y, d,
                         (double)p[0], shown);
-                if (t == 0.0)
+                /* Sharpening looks one texel further. */
+                if (fabs(d) > BLEND / 2 + 1)
                     assert_true(p[0] == otx_image_at(&hard.levels[0], x, y)[0]);
             }
         test_run_destroy(run);
