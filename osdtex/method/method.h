@@ -61,6 +61,7 @@ typedef struct otx_method_given
     int32_t patch_count;
     const otx_vec2 *uvs; /* [leaf corner_count] texels; corners that share
                           * vertex and patch are equal */
+    double reach;        /* texels from a seam within which they may be moved */
 } otx_method_given;
 
 typedef struct otx_method

@@ -7,6 +7,7 @@
 
 #include "flatten/stretch.h"
 #include "image/pyramid.h"
+#include "relax/reach.h"
 #include "relax/sheet.h"
 
 #include <string.h>
@@ -227,6 +228,15 @@ seam_variables(const otx_sheet_seam *seam, int32_t v[4])
     v[3] = seam->b[1];
 }
 
+/* Makes the equations of what may not move 0 = 0. */
+static void
+hold_rim(const otx_sheet *s, otx_vec2 *out)
+{
+    for (int32_t v = 0; v < s->count; ++v)
+        if (s->fixed[v])
+            out[v] = (otx_vec2){0.0, 0.0};
+}
+
 static void
 apply(const void *context, const otx_vec2 *x, otx_vec2 *out)
 {
@@ -263,6 +273,7 @@ apply(const void *context, const otx_vec2 *x, otx_vec2 *out)
                 out[v[i / 2]].y += sum;
         }
     }
+    hold_rim(&e->sheet, out);
 }
 
 /* Right-hand side stiffness (b - L u) - J^T r, and the diagonal. */
@@ -296,6 +307,7 @@ prepare_system(elastic *e)
             e->diagonal[v[k]].y += block->h[2 * k + 1][2 * k + 1];
         }
     }
+    hold_rim(s, e->b);
 }
 
 /* -- steps that are allowed ---------------------------------------------- */
@@ -520,11 +532,16 @@ otx_elastic_run(
         .options = options,
         .weight = sigma > 0.0 ? 1.0 / (sigma * sigma) : 0.0,
     };
+    uint8_t *inside = NULL;
     otx_pyramid pyramid;
 
     *out = (otx_elastic_stats){0};
+    if (options->reach > 0.0)
+        OTX_TRY(otx_reach_mark(
+            run, surface, face_patch, options->reach / options->texels,
+            &inside));
     OTX_TRY(otx_sheet_build(
-        run, surface, options->texels, face_patch, uvs, &e.sheet));
+        run, surface, options->texels, face_patch, inside, uvs, &e.sheet));
     if (options->keep_shape)
         OTX_TRY(keep_shape(&e));
     OTX_TRY(otx_pyramid_build(run, run->scratch, &exemplar->match, &pyramid));

@@ -24,6 +24,8 @@ typedef struct otx_elastic_options
     int32_t levels;   /* of the exemplar's pyramid, 1 .. */
     double stiffness; /* weight of rigidity */
     double stretch;   /* limit of a singular value and of its inverse */
+    double reach;     /* texels from a seam beyond which nothing is moved;
+                       * 0: everything may */
     bool keep_shape;  /* rigidity holds the shapes that the UVs have now, not
                        * the surface's: where a texture's size varies on
                        * purpose */

@@ -25,6 +25,22 @@ vertex_corners(
     return true;
 }
 
+/* The patches of the faces that are taken, -1 elsewhere. */
+static const int32_t *
+taken(
+    const otx_level *leaf, otx_arena *arena, const int32_t *face_patch,
+    const uint8_t *inside)
+{
+    int32_t *patch;
+
+    if (!inside)
+        return face_patch;
+    patch = OTX_NEW(arena, int32_t, leaf->face_count);
+    for (int32_t f = 0; patch && f < leaf->face_count; ++f)
+        patch[f] = inside[f] ? face_patch[f] : -1;
+    return patch;
+}
+
 /* The patch of every corner, -1 where there is none. */
 static int32_t *
 corner_patches(
@@ -36,6 +52,28 @@ corner_patches(
         for (int32_t c = leaf->face_first[f]; c < leaf->face_first[f + 1]; ++c)
             patch[c] = face_patch[f];
     return patch;
+}
+
+/* Marks the variables that faces outside have too. */
+static void
+fix_rim(
+    const otx_level *leaf, const int32_t *first, const int32_t *corner,
+    const int32_t *patch, const int32_t *variable, const int32_t *all,
+    const uint8_t *inside, otx_sheet *s)
+{
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        if (inside[f] || all[f] < 0)
+            continue;
+        for (int32_t c = leaf->face_first[f]; c < leaf->face_first[f + 1]; ++c)
+        {
+            const int32_t v = leaf->face_verts[c];
+
+            for (int32_t i = first[v]; i < first[v + 1]; ++i)
+                if (patch[corner[i]] == all[f])
+                    s->fixed[variable[corner[i]]] = 1;
+        }
+    }
 }
 
 /* One variable for each patch around each vertex; variable[corner], -1 none. */
@@ -138,29 +176,34 @@ list_seams(
 otx_status
 otx_sheet_build(
     otx_run *run, const otx_surface *surface, double texels,
-    const int32_t *face_patch, const otx_vec2 *uvs, otx_sheet *out)
+    const int32_t *face_patch, const uint8_t *inside, const otx_vec2 *uvs,
+    otx_sheet *out)
 {
     const otx_level *leaf = otx_surface_leaf(surface);
     otx_arena *arena = run->scratch;
     int32_t *first, *corner;
-    const int32_t *patch = corner_patches(leaf, arena, face_patch);
+    const int32_t *faces = taken(leaf, arena, face_patch, inside);
+    const int32_t *patch = faces ? corner_patches(leaf, arena, faces) : NULL;
     int32_t *variable = OTX_NEW(arena, int32_t, leaf->corner_count);
     otx_rigid_mesh mesh;
 
     *out = (otx_sheet){0};
+    out->fixed = OTX_ZNEW(arena, uint8_t, leaf->corner_count);
     out->first = OTX_NEW(arena, int32_t, leaf->face_count + 1);
     out->corners = OTX_NEW(arena, int32_t, leaf->corner_count);
     out->corner_leaf = OTX_NEW(arena, int32_t, leaf->corner_count);
     out->verts = OTX_NEW(arena, int32_t, leaf->corner_count);
     out->at = OTX_NEW(arena, otx_vec2, leaf->corner_count);
     out->seams = OTX_NEW(arena, otx_sheet_seam, leaf->edge_count + 1);
-    if (!patch || !variable || !out->first || !out->corners ||
+    if (!patch || !variable || !out->fixed || !out->first || !out->corners ||
         !out->corner_leaf || !out->verts || !out->at || !out->seams ||
         !vertex_corners(leaf, arena, &first, &corner))
         return otx_fail_memory(run, "relax");
     number_variables(leaf, first, corner, patch, uvs, out, variable);
-    list_faces(leaf, face_patch, variable, out);
-    list_seams(surface, texels, face_patch, variable, out);
+    if (inside)
+        fix_rim(leaf, first, corner, patch, variable, face_patch, inside, out);
+    list_faces(leaf, faces, variable, out);
+    list_seams(surface, texels, faces, variable, out);
     mesh = (otx_rigid_mesh){out->face_count, out->count, out->first,
                             out->corners,    out->verts, surface->points,
                             texels};

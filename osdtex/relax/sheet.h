@@ -26,15 +26,20 @@ typedef struct otx_sheet
     int32_t count;        /* variables */
     int32_t *verts;       /* [count] leaf vertices */
     otx_vec2 *at;         /* [count] texels */
+    uint8_t *fixed;       /* [count] 1: of a face that is left out as well */
     int32_t seam_count;
     otx_sheet_seam *seams;
     otx_rigid rigid;
 } otx_sheet;
 
-/* In run->scratch. MEMORY. */
+/* In run->scratch. MEMORY.
+ *
+ *   inside  [leaf face_count] 1: faces to take; NULL all. Seams count where
+ *           both sides are taken. */
 otx_status otx_sheet_build(
     otx_run *run, const otx_surface *surface, double texels,
-    const int32_t *face_patch, const otx_vec2 *uvs, otx_sheet *out);
+    const int32_t *face_patch, const uint8_t *inside, const otx_vec2 *uvs,
+    otx_sheet *out);
 
 /* Copies the variables back to the corners. */
 void otx_sheet_store(const otx_sheet *sheet, otx_vec2 *uvs);

@@ -27,6 +27,7 @@ relax(otx_mapper *m)
         .levels = 3,
         .stiffness = m->settings.stiffness,
         .stretch = 1.6,
+        .reach = m->given ? m->given->reach : 0.0,
         .keep_shape = m->given != NULL,
     };
     otx_elastic_stats stats;

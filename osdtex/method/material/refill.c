@@ -7,6 +7,9 @@
 #include "cluster/dual.h"
 #include "flatten/stretch.h"
 
+/* How far from a seam the periodic texture gives way to it, in cells. */
+static const double REACH = 1.0;
+
 /* -- which faces --------------------------------------------------------- */
 
 /* Whether every fan triangle of a leaf face keeps its sense and its size
@@ -96,7 +99,8 @@ otx_refill_choose(otx_material *m, const otx_vec2 *cells, uint8_t *open)
 otx_status
 otx_refill_run(otx_material *m, otx_mapping *out)
 {
-    const otx_method_given given = {m->face_patch, m->patch_count, m->uvs};
+    const otx_method_given given = {
+        m->face_patch, m->patch_count, m->uvs, REACH * m->cell * m->texels};
     otx_map_request request = *m->request;
     otx_guide guide;
 

@@ -1,6 +1,7 @@
 /* test_sheet.c -- one variable per vertex and patch, seams with both sides. */
 #include "grid.h"
 
+#include "relax/reach.h"
 #include "relax/sheet.h"
 
 static otx_vec2 *
@@ -32,7 +33,7 @@ vertices_between_patches_are_doubled(void **state)
     for (int32_t f = 0; f < 12; ++f)
         patch[f] = f % 4 < 2 ? 0 : 1;
     assert_int_equal(
-        otx_sheet_build(run, s, 8.0, patch, uvs, &sheet), OSDTEX_OK);
+        otx_sheet_build(run, s, 8.0, patch, NULL, uvs, &sheet), OSDTEX_OK);
     assert_int_equal(sheet.face_count, 12);
     assert_int_equal(sheet.count, 20 + 4);
     assert_int_equal(sheet.seam_count, 3);
@@ -63,10 +64,41 @@ holes_are_left_out(void **state)
 
     (void)state;
     assert_int_equal(
-        otx_sheet_build(run, s, 8.0, patch, uvs, &sheet), OSDTEX_OK);
+        otx_sheet_build(run, s, 8.0, patch, NULL, uvs, &sheet), OSDTEX_OK);
     assert_int_equal(sheet.face_count, 2);
     assert_int_equal(sheet.count, 8);
     assert_int_equal(sheet.seam_count, 0);
+    test_run_destroy(run);
+}
+
+/* Faces near the seam are taken; what they share with others is fixed. */
+static void
+what_is_out_of_reach_is_left_out(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_surface *s = test_grid_create(run->arena, 6, 1, 1.0);
+    const int32_t patch[6] = {0, 0, 0, 1, 1, 1};
+    otx_sheet sheet;
+    uint8_t *inside;
+    int32_t fixed = 0;
+
+    (void)state;
+    assert_int_equal(otx_reach_mark(run, s, patch, 1.0, &inside), OSDTEX_OK);
+    for (int32_t f = 0; f < 6; ++f)
+        assert_int_equal(inside[f], f > 0 && f < 5);
+    assert_int_equal(
+        otx_sheet_build(run, s, 8.0, patch, inside, corner_uvs(run, s), &sheet),
+        OSDTEX_OK);
+    assert_int_equal(sheet.face_count, 4);
+    assert_int_equal(sheet.count, 12);
+    for (int32_t v = 0; v < sheet.count; ++v)
+    {
+        const double x = sheet.at[v].x / 8.0;
+
+        assert_int_equal(sheet.fixed[v], x == 1.0 || x == 5.0);
+        fixed += sheet.fixed[v];
+    }
+    assert_int_equal(fixed, 4);
     test_run_destroy(run);
 }
 
@@ -81,7 +113,7 @@ an_isometric_sheet_is_at_rest(void **state)
 
     (void)state;
     assert_int_equal(
-        otx_sheet_build(run, s, 8.0, patch, corner_uvs(run, s), &sheet),
+        otx_sheet_build(run, s, 8.0, patch, NULL, corner_uvs(run, s), &sheet),
         OSDTEX_OK);
     otx_rigid_pull(&sheet.rigid, sheet.at, b);
     otx_rigid_apply(&sheet.rigid, sheet.at, u);
@@ -96,6 +128,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(vertices_between_patches_are_doubled),
         cmocka_unit_test(holes_are_left_out),
+        cmocka_unit_test(what_is_out_of_reach_is_left_out),
         cmocka_unit_test(an_isometric_sheet_is_at_rest),
     };
 

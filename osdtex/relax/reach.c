@@ -1,0 +1,104 @@
+/* reach.c -- which faces a relaxation may move. */
+#include "relax/reach.h"
+
+#include "base/queue.h"
+#include "math/vec.h"
+
+typedef struct walk
+{
+    const otx_surface *surface;
+    const otx_level *leaf;
+    const int32_t *face_patch;
+    double *nearest; /* [face_count] from a seam */
+    otx_queue queue;
+} walk;
+
+static otx_vec3
+centre(const walk *w, int32_t face)
+{
+    const int32_t first = w->leaf->face_first[face];
+    const int32_t size = otx_level_face_size(w->leaf, face);
+    otx_vec3 sum = {0, 0, 0};
+
+    for (int32_t i = first; i < first + size; ++i)
+        sum = otx_vec3_add(
+            sum, otx_vec3_load(w->surface->points, w->leaf->face_verts[i]));
+    return otx_vec3_scale(1.0 / size, sum);
+}
+
+static bool
+is_at_seam(const walk *w, int32_t face)
+{
+    for (int32_t k = 0; k < otx_level_face_size(w->leaf, face); ++k)
+    {
+        const int32_t other = otx_level_neighbour(w->leaf, face, k);
+
+        if (other >= 0 && w->face_patch[other] >= 0 &&
+            w->face_patch[other] != w->face_patch[face])
+            return true;
+    }
+    return false;
+}
+
+static bool
+start(walk *w)
+{
+    for (int32_t f = 0; f < w->leaf->face_count; ++f)
+    {
+        const bool seed = w->face_patch[f] >= 0 && is_at_seam(w, f);
+
+        w->nearest[f] = seed ? 0.0 : INFINITY;
+        if (seed && !otx_queue_push(&w->queue, 0.0, f))
+            return false;
+    }
+    return true;
+}
+
+/* Goes on to the neighbours of `face`, no farther than `distance`. */
+static bool
+spread(walk *w, int32_t face, double distance)
+{
+    for (int32_t k = 0; k < otx_level_face_size(w->leaf, face); ++k)
+    {
+        const int32_t other = otx_level_neighbour(w->leaf, face, k);
+        double d;
+
+        if (other < 0 || w->face_patch[other] < 0)
+            continue;
+        d = w->nearest[face] +
+            otx_vec3_length(otx_vec3_sub(centre(w, other), centre(w, face)));
+        if (!(d < w->nearest[other]) || d > distance)
+            continue;
+        w->nearest[other] = d;
+        if (!otx_queue_push(&w->queue, d, other))
+            return false;
+    }
+    return true;
+}
+
+otx_status
+otx_reach_mark(
+    otx_run *run, const otx_surface *surface, const int32_t *face_patch,
+    double distance, uint8_t **out)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+    walk w = {
+        .surface = surface,
+        .leaf = leaf,
+        .face_patch = face_patch,
+        .nearest = OTX_NEW(run->scratch, double, leaf->face_count),
+        .queue = otx_queue_make(run->scratch)};
+    otx_queue_entry entry;
+    bool fine;
+
+    *out = OTX_NEW(run->scratch, uint8_t, leaf->face_count);
+    fine = *out && w.nearest && start(&w);
+    while (fine && otx_queue_pop(&w.queue, &entry))
+        if (entry.key <= w.nearest[entry.item])
+            fine = spread(&w, entry.item, distance);
+    if (!fine)
+        return otx_fail_memory(run, "relax");
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        (*out)[f] = isfinite(w.nearest[f]);
+    return OSDTEX_OK;
+}

@@ -1,0 +1,22 @@
+/* reach.h -- which faces a relaxation may move.
+ *
+ * Seams pull, and what lies far from all of them comes to rest where it was.
+ * Where a surface is mostly one patch, leaving that out is most of the time. */
+#ifndef OTX_RELAX_REACH_H
+#define OTX_RELAX_REACH_H
+
+#include "base/run.h"
+#include "surface/surface.h"
+
+/* Marks the leaf faces within `distance` (scene units, from centre to centre
+ * along faces) of a face that has a neighbour in another patch.
+ *
+ *   face_patch  [leaf face_count], -1 on holes
+ *   out         [leaf face_count] in run->scratch, 1 within reach
+ *
+ * MEMORY. */
+otx_status otx_reach_mark(
+    otx_run *run, const otx_surface *surface, const int32_t *face_patch,
+    double distance, uint8_t **out);
+
+#endif
