@@ -65,16 +65,20 @@ factor_laplacian(
     otx_sparse_entry *entries = OTX_NEW(
         run->scratch, otx_sparse_entry,
         3 * (int64_t)c->level->edge_count + size);
+    otx_vec3 *places = OTX_NEW(run->scratch, otx_vec3, size);
     int64_t count;
     otx_status status;
 
-    if (!entries)
+    if (!entries || !places)
         return otx_fail_memory(run, "field");
     count = add_laplacian(c, row, border, entries);
     for (int32_t i = 0; i < size; ++i)
         entries[count++] = (otx_sparse_entry){i, i, GROUND, 0.0};
+    for (int32_t v = 0; v < c->level->vert_count; ++v)
+        if (row[v] >= 0)
+            places[row[v]] = otx_vec3_load(c->surface->points, v);
     status = otx_sparse_factor(
-        run->scratch, OTX_SPARSE_REAL, size, entries, count, out);
+        run->scratch, OTX_SPARSE_REAL, size, places, entries, count, out);
     if (status == OSDTEX_ERROR_MEMORY)
         return otx_fail_memory(run, "field");
     if (status != OSDTEX_OK)

@@ -10,7 +10,7 @@
 
 enum
 {
-    EIGEN_ROUNDS = 30,
+    EIGEN_ROUNDS = 14,
     UNIT_ROUNDS = 4
 };
 
@@ -19,6 +19,10 @@ static const double SMOOTHING = 40.0;
 
 /* A sum of steps that is this far from a whole number is not one. */
 static const double WHOLE = 1e-3;
+
+/* Edges along a cell, and those on a level of more faces than LARGE. */
+static const double EDGES = 4.0, EDGES_OF_LARGE = 2.5;
+static const int32_t LARGE = 40000;
 
 typedef struct solver
 {
@@ -293,9 +297,10 @@ factor(solver *s, int axis, otx_arena *arena, otx_sparse **out)
     const int64_t size = (s->one_sense ? 1 : 2) * (int64_t)level->vert_count;
     otx_sparse_entry *entries =
         OTX_NEW(arena, otx_sparse_entry, 8 * edges + size);
+    otx_vec3 *places = OTX_NEW(arena, otx_vec3, size);
     int64_t count = 0;
 
-    if (!entries)
+    if (!entries || !places)
         return OSDTEX_ERROR_MEMORY;
     for (int32_t e = 0; e < edges; ++e)
     {
@@ -311,9 +316,12 @@ factor(solver *s, int axis, otx_arena *arena, otx_sparse **out)
     for (int32_t i = 0; i < size; ++i)
         entries[count++] = (otx_sparse_entry){
             i, i, s->tau * s->mass[s->one_sense ? i : i / 2], 0.0};
+    for (int32_t i = 0; i < size; ++i)
+        places[i] =
+            otx_vec3_load(s->c->surface->points, s->one_sense ? i : i / 2);
     return otx_sparse_factor(
         arena, s->one_sense ? OTX_SPARSE_COMPLEX : OTX_SPARSE_REAL,
-        (int32_t)size, entries, count, out);
+        (int32_t)size, places, entries, count, out);
 }
 
 static void
@@ -379,7 +387,7 @@ solve_axis(void *context, int64_t axis, otx_worker *worker)
         mass[i] = s->mass[s->one_sense ? i % (size / 2) : i / 2];
         z[i] = i % 2 == 0 ? 1.0 : 0.0;
     }
-    OTX_TRY(otx_sparse_smallest(lhs, mass, EIGEN_ROUNDS, z));
+    OTX_TRY(otx_sparse_smallest(worker->scratch, lhs, mass, EIGEN_ROUNDS, z));
     for (int round = 0; round < UNIT_ROUNDS; ++round)
     {
         normalise(s, z);
@@ -536,6 +544,23 @@ solve(solver *s)
     for (int32_t f = 0; f < s->c->level->face_count; ++f)
         s->phase->defect_count += s->phase->defect[f];
     return otx_progress(s->run, "field", 1.0);
+}
+
+int32_t
+otx_phase_level(const otx_surface *surface, double cell)
+{
+    int32_t level = surface->level_count - 1;
+    double edge = surface->mean_edge_length;
+
+    for (; level > 1; --level)
+    {
+        const bool large = surface->levels[level].face_count > LARGE;
+
+        edge *= 2.0;
+        if (edge * (large ? EDGES_OF_LARGE : EDGES) > cell)
+            break;
+    }
+    return level;
 }
 
 otx_status

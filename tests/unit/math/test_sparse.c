@@ -51,7 +51,7 @@ solves(bool complex)
         b[i] = otx_random_unit(2, 0, (uint64_t)i);
     assert_int_equal(
         otx_sparse_factor(
-            run->arena, complex ? OTX_SPARSE_COMPLEX : OTX_SPARSE_REAL, N,
+            run->arena, complex ? OTX_SPARSE_COMPLEX : OTX_SPARSE_REAL, N, NULL,
             entries, count, &s),
         OSDTEX_OK);
     assert_int_equal(otx_sparse_solve(s, b, x), OSDTEX_OK);
@@ -104,12 +104,59 @@ finds_the_smallest_eigenvector(void **state)
         x[i] = 1.0;
     }
     assert_int_equal(
-        otx_sparse_factor(run->arena, OTX_SPARSE_REAL, N, entries, count, &s),
+        otx_sparse_factor(
+            run->arena, OTX_SPARSE_REAL, N, NULL, entries, count, &s),
         OSDTEX_OK);
-    assert_int_equal(otx_sparse_smallest(s, NULL, 30, x), OSDTEX_OK);
+    assert_int_equal(
+        otx_sparse_smallest(run->scratch, s, NULL, 12, x), OSDTEX_OK);
     for (int32_t i = 0; i < N; ++i)
         assert_true(
             fabs(x[i] - sin(OTX_PI * (i + 1) / (N + 1)) / length) < 1e-9);
+    test_run_destroy(run);
+}
+
+/* Ordering by places changes the time, not the solution. */
+static void
+places_change_nothing(void **state)
+{
+    enum
+    {
+        SIDE = 80,
+        COUNT = SIDE * SIDE
+    };
+    otx_run *run = test_run_create();
+    otx_sparse_entry *entries =
+        OTX_NEW(run->arena, otx_sparse_entry, 3 * COUNT);
+    otx_vec3 *places = OTX_NEW(run->arena, otx_vec3, COUNT);
+    double *b = OTX_NEW(run->arena, double, COUNT);
+    double *x[2];
+    int64_t count = 0;
+
+    (void)state;
+    for (int32_t i = 0; i < COUNT; ++i)
+    {
+        places[i] = (otx_vec3){i % SIDE, i / SIDE, 0};
+        b[i] = otx_random_unit(3, 0, (uint64_t)i);
+        entries[count++] = (otx_sparse_entry){i, i, 4.1, 0.0};
+        if (i % SIDE > 0)
+            entries[count++] = (otx_sparse_entry){i, i - 1, -1.0, 0.0};
+        if (i >= SIDE)
+            entries[count++] = (otx_sparse_entry){i, i - SIDE, -1.0, 0.0};
+    }
+    for (int k = 0; k < 2; ++k)
+    {
+        otx_sparse *s;
+
+        x[k] = OTX_NEW(run->arena, double, COUNT);
+        assert_int_equal(
+            otx_sparse_factor(
+                run->arena, OTX_SPARSE_REAL, COUNT, k == 0 ? places : NULL,
+                entries, count, &s),
+            OSDTEX_OK);
+        assert_int_equal(otx_sparse_solve(s, b, x[k]), OSDTEX_OK);
+    }
+    for (int32_t i = 0; i < COUNT; ++i)
+        assert_true(fabs(x[0][i] - x[1][i]) < 1e-10);
     test_run_destroy(run);
 }
 
@@ -125,17 +172,19 @@ refuses_bad_entries(void **state)
 
     (void)state;
     assert_int_equal(
-        otx_sparse_factor(run->arena, OTX_SPARSE_REAL, 2, &above, 1, &s),
+        otx_sparse_factor(run->arena, OTX_SPARSE_REAL, 2, NULL, &above, 1, &s),
         OSDTEX_ERROR_ARGUMENT);
     assert_int_equal(
-        otx_sparse_factor(run->arena, OTX_SPARSE_REAL, 2, &outside, 1, &s),
+        otx_sparse_factor(
+            run->arena, OTX_SPARSE_REAL, 2, NULL, &outside, 1, &s),
         OSDTEX_ERROR_ARGUMENT);
     assert_int_equal(
-        otx_sparse_factor(run->arena, OTX_SPARSE_REAL, 1, &nan, 1, &s),
+        otx_sparse_factor(run->arena, OTX_SPARSE_REAL, 1, NULL, &nan, 1, &s),
         OSDTEX_ERROR_NUMERIC);
     /* LDL' exists, but the matrix is not positive definite. */
     assert_int_equal(
-        otx_sparse_factor(run->arena, OTX_SPARSE_REAL, 2, negative, 2, &s),
+        otx_sparse_factor(
+            run->arena, OTX_SPARSE_REAL, 2, NULL, negative, 2, &s),
         OSDTEX_ERROR_NUMERIC);
     test_run_destroy(run);
 }
@@ -147,6 +196,7 @@ main(void)
         cmocka_unit_test(solves_real),
         cmocka_unit_test(solves_complex),
         cmocka_unit_test(finds_the_smallest_eigenvector),
+        cmocka_unit_test(places_change_nothing),
         cmocka_unit_test(refuses_bad_entries),
     };
 
