@@ -4,10 +4,6 @@
 
 #include <string.h>
 
-/* Edges along a cell at which coordinates are solved for; finer faces share
- * out what their ancestors have. */
-static const double EDGES_PER_CELL = 4.0;
-
 static otx_status
 choose_lattice(otx_material *m)
 {
@@ -30,18 +26,6 @@ choose_lattice(otx_material *m)
     return OSDTEX_OK;
 }
 
-/* The coarsest level that has enough edges to a cell. */
-static int32_t
-choose_level(const otx_material *m)
-{
-    int32_t level = m->surface->level_count - 1;
-    double edge = m->surface->mean_edge_length;
-
-    for (; level > 1 && 2.0 * edge * EDGES_PER_CELL <= m->cell; --level)
-        edge *= 2.0;
-    return level;
-}
-
 static otx_status
 solve_field(otx_material *m)
 {
@@ -52,7 +36,7 @@ solve_field(otx_material *m)
                                                 : 1,
     };
 
-    m->level = choose_level(m);
+    m->level = otx_phase_level(m->surface, m->cell);
     OTX_TRY(otx_connection_build(m->run, m->surface, m->level, &m->connection));
     OTX_TRY(otx_constraint_pins(
         m->run, m->request->constraints, &m->connection, &request));

@@ -40,6 +40,11 @@ typedef struct otx_phase
     int32_t defect_count;
 } otx_phase;
 
+/* The level to solve on for cells of length `cell`, scene units: the coarsest
+ * with four edges to a cell, or, where that would be a large one, with two and
+ * a half. Finer faces share out what their ancestors have. */
+int32_t otx_phase_level(const otx_surface *surface, double cell);
+
 /* In run->arena. NUMERIC, MEMORY, CANCELLED. */
 otx_status
 otx_phase_solve(otx_run *run, const otx_phase_request *request, otx_phase *out);
