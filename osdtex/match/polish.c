@@ -13,7 +13,8 @@ enum
 {
     MAX_RADIUS = 2,
     MAX_SIDE = 2 * MAX_RADIUS + 1,
-    NEWTON_STEPS = 5
+    NEWTON_STEPS = 5,
+    RUN = 64 /* samples summed in floats */
 };
 
 /* Texels that Gauss-Newton may move: beyond, it is another minimum. */
@@ -223,11 +224,19 @@ typedef struct normal
     double weight;
 } normal;
 
+/* The same, each channel in a lane of its own, of few samples. */
+typedef struct lanes
+{
+    float a[3][3][OTX_PLANE_LANES];
+    float b[3][OTX_PLANE_LANES];
+    float error[OTX_PLANE_LANES];
+} lanes;
+
 /* The texels around a place, and where between them it is. */
 typedef struct cell
 {
     const float *low, *high; /* left texel of the lower and the upper row */
-    double u, v;
+    float u, v;
 } cell;
 
 static inline cell
@@ -239,33 +248,62 @@ cell_at(const otx_plane *plane, otx_vec2 p)
     const int32_t j = (int32_t)(y + 0.5) - 1;
     const float *low = otx_plane_at(plane, i, j);
 
-    return (cell){low, low + plane->row_floats, x - 0.5 - i, y - 0.5 - j};
+    return (cell){
+        low, low + plane->row_floats, (float)(x - 0.5 - i),
+        (float)(y - 0.5 - j)};
 }
 
-/* One channel of one sample. */
+/* One sample, all channels. */
 static inline void
-add_residual(
-    const cell *at, int32_t channel, otx_vec2 arm, double color, double weight,
-    normal *out)
+add_residuals(
+    const cell *at, const float arm[2], const float *color, float weight,
+    lanes *out)
 {
-    const double t00 = (double)at->low[channel];
-    const double t10 = (double)at->low[channel + OTX_PLANE_LANES];
-    const double t01 = (double)at->high[channel];
-    const double t11 = (double)at->high[channel + OTX_PLANE_LANES];
-    const double low = t00 + at->u * (t10 - t00);
-    const double high = t01 + at->u * (t11 - t01);
-    const double gx = (1.0 - at->v) * (t10 - t00) + at->v * (t11 - t01);
-    const double gy = high - low;
-    const double g[3] = {gx, gy, gy * arm.x - gx * arm.y};
-    const double r = color - (low + at->v * (high - low));
+    for (int k = 0; k < OTX_PLANE_LANES; ++k)
+    {
+        const float t00 = at->low[k], t10 = at->low[k + OTX_PLANE_LANES];
+        const float t01 = at->high[k], t11 = at->high[k + OTX_PLANE_LANES];
+        const float low = t00 + at->u * (t10 - t00);
+        const float high = t01 + at->u * (t11 - t01);
+        const float gx = (t10 - t00) + at->v * ((t11 - t01) - (t10 - t00));
+        const float gy = high - low;
+        const float turn = gy * arm[0] - gx * arm[1];
+        const float r = color[k] - (low + at->v * gy);
+        const float wx = weight * gx, wy = weight * gy, wt = weight * turn;
 
+        out->a[0][0][k] += wx * gx;
+        out->a[0][1][k] += wx * gy;
+        out->a[0][2][k] += wx * turn;
+        out->a[1][1][k] += wy * gy;
+        out->a[1][2][k] += wy * turn;
+        out->a[2][2][k] += wt * turn;
+        out->b[0][k] += wx * r;
+        out->b[1][k] += wy * r;
+        out->b[2][k] += wt * r;
+        out->error[k] += weight * r * r;
+    }
+}
+
+static double
+sum_lanes(const float lane[OTX_PLANE_LANES])
+{
+    double sum = 0.0;
+
+    for (int k = 0; k < OTX_PLANE_LANES; ++k)
+        sum += (double)lane[k];
+    return sum;
+}
+
+static void
+add_lanes(const lanes *from, normal *out)
+{
     for (int m = 0; m < 3; ++m)
     {
         for (int n = m; n < 3; ++n)
-            out->a[m][n] += weight * g[m] * g[n];
-        out->b[m] += weight * g[m] * r;
+            out->a[m][n] += sum_lanes(from->a[m][n]);
+        out->b[m] += sum_lanes(from->b[m]);
     }
-    out->error += weight * r * r;
+    out->error += sum_lanes(from->error);
 }
 
 /* Cramer's rule on the damped matrix; false where it is singular. */
@@ -310,30 +348,43 @@ move_match(const otx_match *match, otx_vec2 centroid, const double x[3])
     return moved;
 }
 
+/* The picks [first, end). */
+static void
+evaluate_run(
+    const otx_plane *plane, const otx_polish_picks *picks,
+    const float (*colors)[OTX_PLANE_LANES], otx_vec2 centroid,
+    const otx_match *match, int32_t first, int32_t end, normal *out)
+{
+    const otx_vec2 rotation = otx_vec2_polar(match->angle);
+    const otx_vec2 middle =
+        otx_vec2_add(otx_vec2_mul(rotation, centroid), match->shift);
+    lanes sum = {0};
+
+    for (int32_t i = first; i < end; ++i)
+    {
+        const otx_polish_pick *pick = &picks->list[i];
+        const otx_vec2 p =
+            otx_vec2_add(otx_vec2_mul(rotation, pick->flat), match->shift);
+        const float arm[2] = {(float)(p.x - middle.x), (float)(p.y - middle.y)};
+        const cell at = cell_at(plane, p);
+
+        add_residuals(&at, arm, colors[i], pick->weight, &sum);
+        out->weight += (double)pick->weight;
+    }
+    add_lanes(&sum, out);
+}
+
 static void
 evaluate(
     const otx_plane *plane, const otx_polish_picks *picks,
     const float (*colors)[OTX_PLANE_LANES], otx_vec2 centroid,
     const otx_match *match, normal *out)
 {
-    const otx_vec2 rotation = otx_vec2_polar(match->angle);
-    normal sum = {0}; /* in registers, which *out would not be */
-
-    for (int32_t i = 0; i < picks->count; ++i)
-    {
-        const otx_polish_pick *pick = &picks->list[i];
-        const otx_vec2 p =
-            otx_vec2_add(otx_vec2_mul(rotation, pick->flat), match->shift);
-        const otx_vec2 arm =
-            otx_vec2_mul(rotation, otx_vec2_sub(pick->flat, centroid));
-        const cell at = cell_at(plane, p);
-        const double weight = (double)pick->weight;
-
-        for (int32_t k = 0; k < plane->channels; ++k)
-            add_residual(&at, k, arm, (double)colors[i][k], weight, &sum);
-        sum.weight += weight;
-    }
-    *out = sum;
+    *out = (normal){0};
+    for (int32_t first = 0; first < picks->count; first += RUN)
+        evaluate_run(
+            plane, picks, colors, centroid, match, first,
+            first + RUN < picks->count ? first + RUN : picks->count, out);
 }
 
 /* Centroid of the picks and their RMS distance from it. */

@@ -19,6 +19,7 @@ enum
     FEWEST_PIXELS = 64, /* of a mask at the level of the search */
     FEW_SAMPLES = 300,
     FEWEST_FINALISTS = 4,
+    SPARE_WINNERS = 1, /* scored besides what was asked for */
     MAX_PERIODS = 4 /* a mask larger than this is a mistake */
 };
 
@@ -204,16 +205,26 @@ sharpen(search *s, candidate *c, otx_arena *scratch)
     return OSDTEX_OK;
 }
 
+/* All samples: which of the finalists are worth an exact score. */
+static otx_status
+measure(void *context, int64_t index, otx_worker *worker)
+{
+    search *s = context;
+    candidate *c = &s->candidates[index];
+
+    OTX_TRY(otx_polish_window(
+        worker->scratch, s->matcher, &s->picks, s->picks.count, &c->range, 0, 1,
+        &c->match));
+    rank_candidate(s, c);
+    return OSDTEX_OK;
+}
+
 static otx_status
 finish(void *context, int64_t index, otx_worker *worker)
 {
     search *s = context;
     candidate *c = &s->candidates[index];
 
-    if (s->level > 0)
-        OTX_TRY(otx_polish_window(
-            worker->scratch, s->matcher, &s->picks, s->picks.count, &c->range,
-            0, 1, &c->match));
     c->match.error = otx_matcher_square(s->matcher, s->mask, &c->match);
     if (s->query->gauss_newton)
         OTX_TRY(sharpen(s, c, worker->scratch));
@@ -236,21 +247,32 @@ sort_candidates(search *s)
     }
 }
 
+/* The best `count` and no others. */
+static void
+keep_best(search *s, int32_t count)
+{
+    sort_candidates(s);
+    if (s->candidate_count > count)
+        s->candidate_count = count;
+}
+
 static otx_status
 refine(search *s, int32_t capacity)
 {
-    int32_t finalists = 2 * capacity;
+    const int32_t spare = capacity + SPARE_WINNERS;
+    const int32_t finalists = 2 * capacity;
 
     if (s->level > 0 || s->query->gauss_newton)
         OTX_TRY(otx_polish_pick_samples(
             s->scratch, s->mask, s->query->sample_limit, &s->picks));
     if (s->level > 0)
+    {
         OTX_TRY(for_each(s, s->candidate_count, descend));
-    sort_candidates(s);
-    if (finalists < FEWEST_FINALISTS)
-        finalists = FEWEST_FINALISTS;
-    if (s->candidate_count > finalists)
-        s->candidate_count = finalists;
+        keep_best(
+            s, finalists < FEWEST_FINALISTS ? FEWEST_FINALISTS : finalists);
+        OTX_TRY(for_each(s, s->candidate_count, measure));
+    }
+    keep_best(s, spare);
     OTX_TRY(for_each(s, s->candidate_count, finish));
     sort_candidates(s);
     return OSDTEX_OK;
