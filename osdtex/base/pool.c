@@ -29,7 +29,8 @@ struct otx_pool
     pthread_cond_t work;
     pthread_cond_t done;
     uint64_t generation; /* of the current loop */
-    int32_t busy;
+    bool open;           /* a thread that wakes may still join it */
+    int32_t busy;        /* threads that did, the caller left out */
     bool quit;
 
     otx_pool_body body;
@@ -86,6 +87,9 @@ thread_main(void *argument)
         if (pool->quit)
             break;
         seen = pool->generation;
+        if (!pool->open)
+            continue;
+        ++pool->busy;
         pthread_mutex_unlock(&pool->mutex);
         take_indices(pool, &self->worker);
         pthread_mutex_lock(&pool->mutex);
@@ -179,14 +183,18 @@ otx_pool_for(otx_pool *pool, int64_t count, otx_pool_body body, void *context)
     atomic_store(&pool->next, 0);
     pool->failed_index = INT64_MAX;
     pool->failure = OSDTEX_OK;
-    pool->busy = pool->started;
+    pool->open = count > 1;
     ++pool->generation;
-    pthread_cond_broadcast(&pool->work);
+    if (pool->open)
+        pthread_cond_broadcast(&pool->work);
     pthread_mutex_unlock(&pool->mutex);
 
     take_indices(pool, &pool->threads[0].worker);
 
+    /* All indices are taken. A thread that has not woken by now, because it is
+     * a short loop or a busy machine, is not waited for. */
     pthread_mutex_lock(&pool->mutex);
+    pool->open = false;
     while (pool->busy > 0)
         pthread_cond_wait(&pool->done, &pool->mutex);
     pthread_mutex_unlock(&pool->mutex);
