@@ -168,9 +168,11 @@ unfold(
 }
 
 static void
-apply(const void *context, const otx_vec2 *x, otx_vec2 *out)
+apply(
+    const void *context, const otx_vec2 *x, int32_t first, int32_t end,
+    otx_vec2 *out)
 {
-    otx_rigid_apply(context, x, out);
+    otx_rigid_apply(context, x, first, end, out);
 }
 
 otx_status
@@ -186,7 +188,12 @@ otx_arap_flatten(
     otx_vec2 *b = OTX_NEW(scratch, otx_vec2, chart->vert_count);
     otx_vec2 *diagonal = OTX_NEW(scratch, otx_vec2, chart->vert_count);
     otx_rigid_system system = {
-        chart->vert_count, apply, &rigid, diagonal, CG_ROUNDS, CG_TOLERANCE};
+        .count = chart->vert_count,
+        .apply = apply,
+        .context = &rigid,
+        .diagonal = diagonal,
+        .rounds = CG_ROUNDS,
+        .tolerance = CG_TOLERANCE};
 
     if (!b || !diagonal)
         return OSDTEX_ERROR_MEMORY;

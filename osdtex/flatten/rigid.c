@@ -8,8 +8,15 @@
 
 #include "flatten/stretch.h"
 
+#include <string.h>
+
 static const double COT_MINIMUM = 0.05;
 static const double COT_MAXIMUM = 20.0;
+
+enum
+{
+    ROWS = 2048 /* of a block: sums are made in blocks, whoever makes them */
+};
 
 /* Half the cotangent of the angle at `apex`, clamped. */
 static double
@@ -79,6 +86,37 @@ make_rows(otx_rigid *r)
     r->row[0] = 0;
 }
 
+/* An edge of two triangles stands twice in its row: once is half the work of
+ * every product. */
+static void
+merge_rows(otx_rigid *r)
+{
+    int32_t end = 0;
+
+    for (int32_t v = 0; v < r->vert_count; ++v)
+    {
+        const int32_t first = end;
+        const int32_t old = r->row[v];
+
+        r->row[v] = first;
+        for (int32_t e = old; e < r->row[v + 1]; ++e)
+        {
+            int32_t at = first;
+
+            while (at < end && r->column[at] != r->column[e])
+                ++at;
+            if (at == end)
+            {
+                r->column[end] = r->column[e];
+                r->weight[end++] = r->weight[e];
+            }
+            else
+                r->weight[at] += r->weight[e];
+        }
+    }
+    r->row[r->vert_count] = end;
+}
+
 otx_status
 otx_rigid_build(otx_arena *arena, const otx_rigid_mesh *mesh, otx_rigid *out)
 {
@@ -96,6 +134,7 @@ otx_rigid_build(otx_arena *arena, const otx_rigid_mesh *mesh, otx_rigid *out)
         return OSDTEX_ERROR_MEMORY;
     make_triangles(mesh, out);
     make_rows(out);
+    merge_rows(out);
     return OSDTEX_OK;
 }
 
@@ -144,9 +183,11 @@ otx_rigid_pull(const otx_rigid *rigid, const otx_vec2 *flat, otx_vec2 *b)
 }
 
 void
-otx_rigid_apply(const otx_rigid *rigid, const otx_vec2 *x, otx_vec2 *out)
+otx_rigid_apply(
+    const otx_rigid *rigid, const otx_vec2 *x, int32_t first, int32_t end,
+    otx_vec2 *out)
 {
-    for (int32_t v = 0; v < rigid->vert_count; ++v)
+    for (int32_t v = first; v < end; ++v)
     {
         otx_vec2 sum = otx_vec2_scale(rigid->diagonal[v], x[v]);
 
@@ -159,53 +200,122 @@ otx_rigid_apply(const otx_rigid *rigid, const otx_vec2 *x, otx_vec2 *out)
     }
 }
 
-static double
-dot(const otx_vec2 *a, const otx_vec2 *b, int32_t n)
-{
-    double sum = 0.0;
+/* -- conjugate gradients ------------------------------------------------- */
 
-    for (int32_t v = 0; v < n; ++v)
-        sum += otx_vec2_dot(a[v], b[v]);
-    return sum;
+typedef struct solver
+{
+    const otx_rigid_system *system;
+    otx_vec2 *x, *r, *z, *p, *ap;
+    double step, turn;
+    double *sums; /* of the blocks */
+} solver;
+
+static int32_t
+end_of(const solver *s, int64_t block)
+{
+    const int64_t end = (block + 1) * ROWS;
+
+    return end < s->system->count ? (int32_t)end : s->system->count;
 }
 
-/* z = r / diagonal; returns r . z */
-static double
-precondition(const otx_rigid_system *s, const otx_vec2 *r, otx_vec2 *z)
+/* ap = A p, and p . ap */
+static otx_status
+apply_block(void *context, int64_t block, otx_worker *worker)
 {
-    for (int32_t v = 0; v < s->count; ++v)
-        z[v] = (otx_vec2){r[v].x / s->diagonal[v].x, r[v].y / s->diagonal[v].y};
-    return dot(r, z, s->count);
+    const solver *s = context;
+    const int32_t first = (int32_t)block * ROWS, end = end_of(s, block);
+    double sum = 0.0;
+
+    (void)worker;
+    s->system->apply(s->system->context, s->p, first, end, s->ap);
+    for (int32_t v = first; v < end; ++v)
+        sum += otx_vec2_dot(s->p[v], s->ap[v]);
+    s->sums[block] = sum;
+    return OSDTEX_OK;
+}
+
+/* A step along p; what is left, z = r / diagonal, and r . z */
+static otx_status
+step_block(void *context, int64_t block, otx_worker *worker)
+{
+    const solver *s = context;
+    const otx_vec2 *diagonal = s->system->diagonal;
+    double sum = 0.0;
+
+    (void)worker;
+    for (int32_t v = (int32_t)block * ROWS; v < end_of(s, block); ++v)
+    {
+        s->x[v] = otx_vec2_add(s->x[v], otx_vec2_scale(s->step, s->p[v]));
+        s->r[v] = otx_vec2_sub(s->r[v], otx_vec2_scale(s->step, s->ap[v]));
+        s->z[v] =
+            (otx_vec2){s->r[v].x / diagonal[v].x, s->r[v].y / diagonal[v].y};
+        sum += otx_vec2_dot(s->r[v], s->z[v]);
+    }
+    s->sums[block] = sum;
+    return OSDTEX_OK;
+}
+
+/* p = z + turn p */
+static otx_status
+turn_block(void *context, int64_t block, otx_worker *worker)
+{
+    const solver *s = context;
+
+    (void)worker;
+    for (int32_t v = (int32_t)block * ROWS; v < end_of(s, block); ++v)
+        s->p[v] = otx_vec2_add(s->z[v], otx_vec2_scale(s->turn, s->p[v]));
+    return OSDTEX_OK;
+}
+
+static int64_t
+block_count(const otx_rigid_system *system)
+{
+    return ((int64_t)system->count + ROWS - 1) / ROWS;
+}
+
+/* Runs a body over all blocks; the sum of their sums, in order. */
+static double
+over_blocks(solver *s, otx_pool_body body)
+{
+    const int64_t blocks = block_count(s->system);
+    double sum = 0.0;
+
+    /* Bodies do not fail. */
+    if (s->system->pool && blocks > 1)
+        otx_pool_for(s->system->pool, blocks, body, s);
+    else
+        for (int64_t b = 0; b < blocks; ++b)
+            body(s, b, NULL);
+    for (int64_t b = 0; b < blocks; ++b)
+        sum += s->sums[b];
+    return sum;
 }
 
 /* A Laplacian does not see translations; starting from x, conjugate gradients
  * leave them as they are. */
 static void
-iterate(
-    const otx_rigid_system *s, otx_vec2 *x, otx_vec2 *r, otx_vec2 *z,
-    otx_vec2 *p, otx_vec2 *ap)
+iterate(solver *s)
 {
-    const double first = precondition(s, r, z);
-    double rz = first;
+    const double tolerance = s->system->tolerance;
+    double first, rz;
 
-    for (int32_t v = 0; v < s->count; ++v)
-        p[v] = z[v];
-    for (int32_t i = 0; i < s->rounds; ++i)
+    /* The residual of x as the step of length 1 from b along x. */
+    memcpy(s->p, s->x, (size_t)s->system->count * sizeof *s->p);
+    over_blocks(s, apply_block);
+    memset(s->p, 0, (size_t)s->system->count * sizeof *s->p);
+    s->step = 1.0;
+    first = rz = over_blocks(s, step_block);
+    s->turn = 0.0;
+    for (int32_t i = 0; i < s->system->rounds; ++i)
     {
-        double step, next;
+        double next;
 
-        if (!(rz > s->tolerance * s->tolerance * first) || !(rz > 1e-18))
+        if (!(rz > tolerance * tolerance * first) || !(rz > 1e-18))
             return;
-        s->apply(s->context, p, ap);
-        step = rz / dot(p, ap, s->count);
-        for (int32_t v = 0; v < s->count; ++v)
-        {
-            x[v] = otx_vec2_add(x[v], otx_vec2_scale(step, p[v]));
-            r[v] = otx_vec2_sub(r[v], otx_vec2_scale(step, ap[v]));
-        }
-        next = precondition(s, r, z);
-        for (int32_t v = 0; v < s->count; ++v)
-            p[v] = otx_vec2_add(z[v], otx_vec2_scale(next / rz, p[v]));
+        over_blocks(s, turn_block);
+        s->step = rz / over_blocks(s, apply_block);
+        next = over_blocks(s, step_block);
+        s->turn = next / rz;
         rz = next;
     }
 }
@@ -216,17 +326,20 @@ otx_rigid_solve(
     otx_vec2 *x)
 {
     const otx_arena_mark mark = otx_arena_here(scratch);
-    otx_vec2 *r = OTX_NEW(scratch, otx_vec2, system->count);
-    otx_vec2 *z = OTX_NEW(scratch, otx_vec2, system->count);
-    otx_vec2 *p = OTX_NEW(scratch, otx_vec2, system->count);
-    otx_vec2 *ap = OTX_NEW(scratch, otx_vec2, system->count);
+    const size_t bytes = (size_t)system->count * sizeof *b;
+    solver s = {
+        .system = system,
+        .x = x,
+        .r = OTX_NEW(scratch, otx_vec2, system->count),
+        .z = OTX_NEW(scratch, otx_vec2, system->count),
+        .p = OTX_NEW(scratch, otx_vec2, system->count),
+        .ap = OTX_NEW(scratch, otx_vec2, system->count),
+        .sums = OTX_ZNEW(scratch, double, block_count(system))};
 
-    if (!r || !z || !p || !ap)
+    if (!s.r || !s.z || !s.p || !s.ap || !s.sums)
         return OSDTEX_ERROR_MEMORY;
-    system->apply(system->context, x, ap);
-    for (int32_t v = 0; v < system->count; ++v)
-        r[v] = otx_vec2_sub(b[v], ap[v]);
-    iterate(system, x, r, z, p, ap);
+    memcpy(s.r, b, bytes);
+    iterate(&s);
     otx_arena_release(scratch, mark);
     return OSDTEX_OK;
 }

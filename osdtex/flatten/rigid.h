@@ -8,7 +8,7 @@
 #ifndef OTX_FLATTEN_RIGID_H
 #define OTX_FLATTEN_RIGID_H
 
-#include "base/arena.h"
+#include "base/pool.h"
 #include "math/vec.h"
 
 /* Faces (fans of triangles are made of them) over local vertices. */
@@ -35,8 +35,7 @@ typedef struct otx_rigid
     int32_t vert_count;
     int32_t triangle_count;
     otx_rigid_triangle *triangles;
-    /* Off-diagonal of the Laplacian, positive; an edge of two triangles stands
-     * twice in its row. */
+    /* Off-diagonal of the Laplacian, positive. */
     int32_t *row; /* [vert_count + 1] */
     int32_t *column;
     double *weight;
@@ -50,20 +49,25 @@ otx_rigid_build(otx_arena *arena, const otx_rigid_mesh *mesh, otx_rigid *out);
 /* b = sum of w R (q_i - q_j), with the rotations that are best for `flat`. */
 void otx_rigid_pull(const otx_rigid *rigid, const otx_vec2 *flat, otx_vec2 *b);
 
-/* out = Laplacian x */
-void otx_rigid_apply(const otx_rigid *rigid, const otx_vec2 *x, otx_vec2 *out);
+/* out = Laplacian x, of the rows [first, end) */
+void otx_rigid_apply(
+    const otx_rigid *rigid, const otx_vec2 *x, int32_t first, int32_t end,
+    otx_vec2 *out);
 
 /* Conjugate gradients on a symmetric positive semi-definite system of `count`
  * points, Jacobi preconditioned, from the x that is given. */
 typedef struct otx_rigid_system
 {
     int32_t count;
-    /* out = A x */
-    void (*apply)(const void *context, const otx_vec2 *x, otx_vec2 *out);
+    /* out = A x, of the rows [first, end) */
+    void (*apply)(
+        const void *context, const otx_vec2 *x, int32_t first, int32_t end,
+        otx_vec2 *out);
     const void *context;
     const otx_vec2 *diagonal; /* [count], positive */
     int32_t rounds;           /* at most */
     double tolerance;         /* of the first residual */
+    otx_pool *pool; /* to share the rows; NULL: this thread. Same bits. */
 } otx_rigid_system;
 
 /* MEMORY, without a finding. */

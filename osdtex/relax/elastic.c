@@ -16,6 +16,7 @@ enum
 {
     CG_ROUNDS = 30,
     SEAMS_PER_TASK = 256,
+    FACES_PER_TASK = 1024,
     TAKE_BACK_ROUNDS = 64
 };
 
@@ -40,9 +41,12 @@ typedef struct elastic
     const otx_image *image; /* level of the pyramid */
     double weight;          /* 1 / sigma^2 */
     seam_block *blocks;
+    int32_t *end_first; /* [count + 1] offsets into ends */
+    int32_t *ends;      /* ends of seams at a variable: 4 * seam + which */
     otx_vec2 *step, *b, *diagonal, *moved;
-    uint8_t *held; /* variables taken back this round */
-    double *sigma; /* [face_count] badness of each face before the round */
+    uint8_t *held;   /* variables taken back this round */
+    double *sigma;   /* [face_count] badness of each face before the round */
+    double *badness; /* [face_count] and now */
 } elastic;
 
 /* -- colours and their gradients ----------------------------------------- */
@@ -50,6 +54,8 @@ typedef struct elastic
 static int32_t
 fold(int32_t i, int32_t n, bool wrap)
 {
+    if (i >= 0 && i < n)
+        return i;
     if (wrap)
     {
         i %= n;
@@ -120,14 +126,14 @@ seam_energy(const elastic *e, const otx_sheet_seam *seam, const otx_vec2 *at)
     return sum * e->weight * seam->length / n;
 }
 
-/* Adds one residual with its row of the Jacobian. */
+/* Adds one residual with its row of the Jacobian, to the upper triangle. */
 static void
 add_row(seam_block *block, const double row[8], double residual, double weight)
 {
     for (int i = 0; i < 8; ++i)
     {
         block->g[i] += weight * row[i] * residual;
-        for (int j = 0; j < 8; ++j)
+        for (int j = i; j < 8; ++j)
             block->h[i][j] += weight * row[i] * row[j];
     }
     block->energy += weight * residual * residual;
@@ -159,6 +165,9 @@ linearise(const elastic *e, const otx_sheet_seam *seam, seam_block *block)
             add_row(block, row, a[c] - b[c], weight);
         }
     }
+    for (int i = 1; i < 8; ++i)
+        for (int j = 0; j < i; ++j)
+            block->h[i][j] = block->h[j][i];
 }
 
 static otx_status
@@ -210,7 +219,7 @@ rigid_energy(elastic *e)
     double sum = 0.0;
 
     otx_rigid_pull(&e->sheet.rigid, at, e->b);
-    otx_rigid_apply(&e->sheet.rigid, at, e->step);
+    otx_rigid_apply(&e->sheet.rigid, at, 0, e->sheet.count, e->step);
     for (int32_t v = 0; v < e->sheet.count; ++v)
         sum += otx_vec2_dot(
             at[v], otx_vec2_sub(e->step[v], otx_vec2_scale(2.0, e->b[v])));
@@ -230,50 +239,51 @@ seam_variables(const otx_sheet_seam *seam, int32_t v[4])
 
 /* Makes the equations of what may not move 0 = 0. */
 static void
-hold_rim(const otx_sheet *s, otx_vec2 *out)
+hold_rim(const otx_sheet *s, int32_t first, int32_t end, otx_vec2 *out)
 {
-    for (int32_t v = 0; v < s->count; ++v)
+    for (int32_t v = first; v < end; ++v)
         if (s->fixed[v])
             out[v] = (otx_vec2){0.0, 0.0};
 }
 
+/* The rows of one end of a seam in the product with its block. */
+static otx_vec2
+end_product(const elastic *e, int32_t end, const otx_vec2 *x)
+{
+    const seam_block *block = &e->blocks[end / 4];
+    const double *row = block->h[2 * (end % 4)];
+    otx_vec2 sum = {0.0, 0.0};
+    int32_t v[4];
+
+    seam_variables(&e->sheet.seams[end / 4], v);
+    for (int i = 0; i < 4; ++i)
+    {
+        sum.x += row[2 * i] * x[v[i]].x + row[2 * i + 1] * x[v[i]].y;
+        sum.y += row[8 + 2 * i] * x[v[i]].x + row[9 + 2 * i] * x[v[i]].y;
+    }
+    return sum;
+}
+
 static void
-apply(const void *context, const otx_vec2 *x, otx_vec2 *out)
+apply(
+    const void *context, const otx_vec2 *x, int32_t first, int32_t end,
+    otx_vec2 *out)
 {
     const elastic *e = context;
     const double stiffness = e->options->stiffness;
 
-    otx_rigid_apply(&e->sheet.rigid, x, out);
-    for (int32_t v = 0; v < e->sheet.count; ++v)
+    otx_rigid_apply(&e->sheet.rigid, x, first, end, out);
+    for (int32_t v = first; v < end; ++v)
     {
-        out[v].x = stiffness * out[v].x + DAMPING * e->diagonal[v].x * x[v].x;
-        out[v].y = stiffness * out[v].y + DAMPING * e->diagonal[v].y * x[v].y;
-    }
-    for (int32_t s = 0; s < e->sheet.seam_count; ++s)
-    {
-        const seam_block *block = &e->blocks[s];
-        int32_t v[4];
-        double in[8];
+        otx_vec2 sum = {
+            stiffness * out[v].x + DAMPING * e->diagonal[v].x * x[v].x,
+            stiffness * out[v].y + DAMPING * e->diagonal[v].y * x[v].y};
 
-        seam_variables(&e->sheet.seams[s], v);
-        for (int i = 0; i < 4; ++i)
-        {
-            in[2 * i] = x[v[i]].x;
-            in[2 * i + 1] = x[v[i]].y;
-        }
-        for (int i = 0; i < 8; ++i)
-        {
-            double sum = 0.0;
-
-            for (int j = 0; j < 8; ++j)
-                sum += block->h[i][j] * in[j];
-            if (i % 2 == 0)
-                out[v[i / 2]].x += sum;
-            else
-                out[v[i / 2]].y += sum;
-        }
+        for (int32_t i = e->end_first[v]; i < e->end_first[v + 1]; ++i)
+            sum = otx_vec2_add(sum, end_product(e, e->ends[i], x));
+        out[v] = sum;
     }
-    hold_rim(&e->sheet, out);
+    hold_rim(&e->sheet, first, end, out);
 }
 
 /* Right-hand side stiffness (b - L u) - J^T r, and the diagonal. */
@@ -284,7 +294,7 @@ prepare_system(elastic *e)
     const otx_sheet *s = &e->sheet;
 
     otx_rigid_pull(&s->rigid, s->at, e->b);
-    otx_rigid_apply(&s->rigid, s->at, e->step);
+    otx_rigid_apply(&s->rigid, s->at, 0, s->count, e->step);
     for (int32_t v = 0; v < s->count; ++v)
     {
         const double d = stiffness * s->rigid.diagonal[v] + 1e-9;
@@ -307,7 +317,7 @@ prepare_system(elastic *e)
             e->diagonal[v[k]].y += block->h[2 * k + 1][2 * k + 1];
         }
     }
-    hold_rim(s, e->b);
+    hold_rim(s, 0, s->count, e->b);
 }
 
 /* -- steps that are allowed ---------------------------------------------- */
@@ -343,39 +353,96 @@ face_badness(const elastic *e, int32_t face)
     return worst;
 }
 
-/* Takes back the variables of every face that the step made worse than the
- * limit. Taking back may spoil a neighbour, so it is repeated; after the last
- * round everything is taken back, and the state is the one before. */
+/* Whether a variable of the face was taken back in the last round. */
+static bool
+was_touched(const elastic *e, int32_t face, int32_t round)
+{
+    const otx_sheet *s = &e->sheet;
+
+    for (int32_t c = s->first[face]; c < s->first[face + 1]; ++c)
+        if (e->held[s->corners[c]] == round)
+            return true;
+    return false;
+}
+
+typedef struct judgement
+{
+    elastic *e;
+    int32_t round; /* 0: all faces, else those that the round touched */
+    double *out;   /* [face_count] */
+} judgement;
+
+static otx_status
+judge_faces(void *context, int64_t index, otx_worker *worker)
+{
+    const judgement *j = context;
+    const int64_t first = index * FACES_PER_TASK;
+    const int64_t end = first + FACES_PER_TASK;
+
+    (void)worker;
+    for (int64_t f = first; f < end && f < j->e->sheet.face_count; ++f)
+        if (j->round == 0 || was_touched(j->e, (int32_t)f, j->round))
+            j->out[f] = face_badness(j->e, (int32_t)f);
+    return OSDTEX_OK;
+}
+
+static otx_status
+judge(elastic *e, int32_t round, double *out)
+{
+    judgement j = {e, round, out};
+
+    return otx_pool_for(
+        e->run->pool,
+        (e->sheet.face_count + FACES_PER_TASK - 1) / FACES_PER_TASK,
+        judge_faces, &j);
+}
+
+/* Takes back the variables of the faces that the step made worse than the
+ * limit; how many. */
 static int64_t
-take_back(elastic *e)
+take_back_once(elastic *e, int32_t round)
 {
     otx_sheet *s = &e->sheet;
     int64_t refused = 0;
 
-    for (int32_t round = 0; round < TAKE_BACK_ROUNDS; ++round)
+    for (int32_t f = 0; f < s->face_count; ++f)
     {
-        int64_t before = refused;
-
-        for (int32_t f = 0; f < s->face_count; ++f)
+        if (e->badness[f] <= e->options->stretch ||
+            e->badness[f] <= e->sigma[f])
+            continue;
+        for (int32_t c = s->first[f]; c < s->first[f + 1]; ++c)
         {
-            const double bad = face_badness(e, f);
+            const int32_t v = s->corners[c];
 
-            if (bad <= e->options->stretch || bad <= e->sigma[f])
+            if (e->held[v])
                 continue;
-            for (int32_t c = s->first[f]; c < s->first[f + 1]; ++c)
-            {
-                const int32_t v = s->corners[c];
-
-                refused += !e->held[v];
-                e->held[v] = 1;
-                s->at[v] = e->moved[v];
-            }
+            e->held[v] = (uint8_t)round;
+            s->at[v] = e->moved[v];
+            ++refused;
         }
-        if (refused == before)
-            return refused;
+    }
+    return refused;
+}
+
+/* Taking back may spoil a neighbour, so it is repeated; after the last round
+ * everything is taken back, and the state is the one before. */
+static otx_status
+take_back(elastic *e, int64_t *refused)
+{
+    otx_sheet *s = &e->sheet;
+
+    for (int32_t round = 1; round <= TAKE_BACK_ROUNDS; ++round)
+    {
+        int64_t now;
+
+        OTX_TRY(judge(e, round - 1, e->badness));
+        now = take_back_once(e, round);
+        *refused += now;
+        if (now == 0)
+            return OSDTEX_OK;
     }
     memcpy(s->at, e->moved, (size_t)s->count * sizeof *s->at);
-    return s->count;
+    return OSDTEX_OK;
 }
 
 static double
@@ -385,8 +452,8 @@ inside(double x, bool wrap, double size)
 }
 
 /* Moves by `share` of the step, from `moved` (the state before). */
-static int64_t
-move(elastic *e, double share, double longest)
+static otx_status
+move(elastic *e, double share, double longest, int64_t *refused)
 {
     otx_sheet *s = &e->sheet;
 
@@ -403,7 +470,7 @@ move(elastic *e, double share, double longest)
         s->at[v].y =
             inside(p.y, e->exemplar->wrap_y, e->exemplar->match.height);
     }
-    return take_back(e);
+    return take_back(e, refused);
 }
 
 /* One Gauss-Newton step, halved until the energy falls; left out when it does
@@ -415,7 +482,7 @@ round_of(elastic *e, int32_t level, bool *improved, otx_elastic_stats *stats)
     const otx_arena_mark mark = otx_arena_here(e->run->scratch);
     const int64_t tasks = (s->seam_count + SEAMS_PER_TASK - 1) / SEAMS_PER_TASK;
     const otx_rigid_system system = {
-        s->count, apply, e, e->diagonal, CG_ROUNDS, CG_TOLERANCE};
+        s->count, apply, e, e->diagonal, CG_ROUNDS, CG_TOLERANCE, e->run->pool};
     otx_vec2 *step;
     double seam, before, after, share = 1.0;
 
@@ -429,13 +496,12 @@ round_of(elastic *e, int32_t level, bool *improved, otx_elastic_stats *stats)
     if (otx_rigid_solve(e->run->scratch, &system, e->b, step) != OSDTEX_OK)
         return otx_fail_memory(e->run, "relax");
     memcpy(e->moved, s->at, (size_t)s->count * sizeof *s->at);
-    for (int32_t f = 0; f < s->face_count; ++f)
-        e->sigma[f] = face_badness(e, f);
+    OTX_TRY(judge(e, 0, e->sigma));
     *improved = false;
     for (int32_t attempt = 0; attempt < 4 && !*improved; ++attempt)
     {
         memcpy(e->step, step, (size_t)s->count * sizeof *step);
-        stats->refused += move(e, share, 2.0 * (1 << level));
+        OTX_TRY(move(e, share, 2.0 * (1 << level), &stats->refused));
         OTX_TRY(total_seam_energy(e, &seam));
         after = seam + rigid_energy(e);
         *improved = after < before;
@@ -498,6 +564,32 @@ keep_shape(elastic *e)
     return OSDTEX_OK;
 }
 
+/* Counts, sums, fills; filling shifts the offsets, which are put back. */
+static void
+list_ends(elastic *e)
+{
+    const otx_sheet *s = &e->sheet;
+    int32_t v[4];
+
+    for (int32_t i = 0; i < s->seam_count; ++i)
+    {
+        seam_variables(&s->seams[i], v);
+        for (int k = 0; k < 4; ++k)
+            ++e->end_first[v[k] + 1];
+    }
+    for (int32_t i = 0; i < s->count; ++i)
+        e->end_first[i + 1] += e->end_first[i];
+    for (int32_t i = 0; i < s->seam_count; ++i)
+    {
+        seam_variables(&s->seams[i], v);
+        for (int k = 0; k < 4; ++k)
+            e->ends[e->end_first[v[k]]++] = 4 * i + k;
+    }
+    for (int32_t i = s->count; i > 0; --i)
+        e->end_first[i] = e->end_first[i - 1];
+    e->end_first[0] = 0;
+}
+
 static otx_status
 allocate(elastic *e)
 {
@@ -511,9 +603,13 @@ allocate(elastic *e)
     e->moved = OTX_NEW(arena, otx_vec2, n);
     e->held = OTX_NEW(arena, uint8_t, n);
     e->sigma = OTX_NEW(arena, double, e->sheet.face_count);
-    if (!e->blocks || !e->step || !e->b || !e->diagonal || !e->moved ||
-        !e->held || !e->sigma)
+    e->badness = OTX_NEW(arena, double, e->sheet.face_count);
+    e->end_first = OTX_ZNEW(arena, int32_t, (int64_t)n + 1);
+    e->ends = OTX_NEW(arena, int32_t, 4 * (int64_t)e->sheet.seam_count);
+    if (!e->badness || !e->end_first || !e->ends || !e->blocks || !e->step ||
+        !e->b || !e->diagonal || !e->moved || !e->held || !e->sigma)
         return otx_fail_memory(e->run, "relax");
+    list_ends(e);
     return OSDTEX_OK;
 }
 

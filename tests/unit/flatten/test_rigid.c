@@ -46,7 +46,7 @@ the_laplacian_ignores_translations(void **state)
     (void)state;
     for (int32_t v = 0; v < VERTS; ++v)
         flat[v] = (otx_vec2){4.0, -2.0};
-    otx_rigid_apply(&rigid, flat, out);
+    otx_rigid_apply(&rigid, flat, 0, VERTS, out);
     for (int32_t v = 0; v < VERTS; ++v)
         assert_true(otx_vec2_length(out[v]) < 1e-9);
     test_run_destroy(run);
@@ -63,16 +63,18 @@ a_turned_plane_is_at_rest(void **state)
     for (int32_t v = 0; v < VERTS; ++v)
         flat[v] = otx_vec2_mul(otx_vec2_polar(1.1), flat[v]);
     otx_rigid_pull(&rigid, flat, pull);
-    otx_rigid_apply(&rigid, flat, out);
+    otx_rigid_apply(&rigid, flat, 0, VERTS, out);
     for (int32_t v = 0; v < VERTS; ++v)
         assert_true(otx_vec2_length(otx_vec2_sub(pull[v], out[v])) < 1e-9);
     test_run_destroy(run);
 }
 
 static void
-apply(const void *context, const otx_vec2 *x, otx_vec2 *out)
+apply(
+    const void *context, const otx_vec2 *x, int32_t first, int32_t end,
+    otx_vec2 *out)
 {
-    otx_rigid_apply(context, x, out);
+    otx_rigid_apply(context, x, first, end, out);
 }
 
 static void
@@ -81,7 +83,8 @@ the_solver_solves(void **state)
     otx_run *run = test_run_create();
     otx_vec2 flat[VERTS], b[VERTS], out[VERTS], diagonal[VERTS];
     const otx_rigid rigid = build(run, 0.8, flat);
-    const otx_rigid_system system = {VERTS, apply, &rigid, diagonal, 500, 1e-8};
+    const otx_rigid_system system = {
+        VERTS, apply, &rigid, diagonal, 500, 1e-8, run->pool};
 
     (void)state;
     for (int32_t v = 0; v < VERTS; ++v)
@@ -89,7 +92,7 @@ the_solver_solves(void **state)
     otx_rigid_pull(&rigid, flat, b);
     assert_int_equal(
         otx_rigid_solve(run->scratch, &system, b, flat), OSDTEX_OK);
-    otx_rigid_apply(&rigid, flat, out);
+    otx_rigid_apply(&rigid, flat, 0, VERTS, out);
     for (int32_t v = 0; v < VERTS; ++v)
         assert_true(otx_vec2_length(otx_vec2_sub(out[v], b[v])) < 1e-5);
     test_run_destroy(run);

@@ -116,7 +116,7 @@ an_isometric_sheet_is_at_rest(void **state)
         otx_sheet_build(run, s, 8.0, patch, NULL, corner_uvs(run, s), &sheet),
         OSDTEX_OK);
     otx_rigid_pull(&sheet.rigid, sheet.at, b);
-    otx_rigid_apply(&sheet.rigid, sheet.at, u);
+    otx_rigid_apply(&sheet.rigid, sheet.at, 0, sheet.count, u);
     for (int32_t v = 0; v < 36; ++v)
         assert_true(otx_vec2_length(otx_vec2_sub(b[v], u[v])) < 1e-9);
     test_run_destroy(run);
