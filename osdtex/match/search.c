@@ -20,7 +20,7 @@ enum
     FEW_SAMPLES = 300,
     FEWEST_FINALISTS = 4,
     SPARE_WINNERS = 1, /* scored besides what was asked for */
-    MAX_PERIODS = 4 /* a mask larger than this is a mistake */
+    MAX_PERIODS = 4    /* a mask larger than this is a mistake */
 };
 
 typedef struct candidate

@@ -63,9 +63,11 @@ widest_mask(const otx_mapper *m, double size)
     return 0.5 * (MASK_SHARE * fmin(width, height) - size);
 }
 
-/* The collar's textured faces as mask triangles in the run's scratch. */
+/* The collar's textured faces as mask triangles. */
 static otx_status
-make_mask(otx_mapper *m, const otx_node *node, otx_mask *out)
+make_mask(
+    const otx_mapper *m, const otx_node *node, otx_arena *scratch,
+    otx_mask *out)
 {
     const otx_chart *chart = &node->chart;
     const otx_level *leaf = m->leaves.level;
@@ -74,12 +76,12 @@ make_mask(otx_mapper *m, const otx_node *node, otx_mask *out)
     const double widest = fmax(band, widest_mask(m, otx_nodes_size(m, node)));
     /* A triangle that is cut leaves two. */
     otx_mask_triangle *triangles = OTX_NEW(
-        m->run->scratch, otx_mask_triangle,
+        scratch, otx_mask_triangle,
         2 * (int64_t)chart->first[chart->face_count]);
     int32_t count = 0;
 
     if (!triangles)
-        return otx_fail_memory(m->run, "map");
+        return OSDTEX_ERROR_MEMORY;
     for (int32_t i = chart->core_count; i < chart->face_count; ++i)
     {
         const int32_t face = chart->faces[i];
@@ -110,6 +112,17 @@ make_mask(otx_mapper *m, const otx_node *node, otx_mask *out)
 
 /* -- placement ----------------------------------------------------------- */
 
+/* One node that is looked up, and what the thread that does it works with. */
+typedef struct trial
+{
+    int32_t index;
+    bool alone; /* may use the threads of the pool */
+    otx_arena *scratch;
+    otx_chart_space *space;
+    otx_vec2 *points; /* [point_count] corners of the core */
+    int32_t point_count;
+} trial;
+
 static otx_vec2
 core_middle(const otx_chart *chart)
 {
@@ -123,10 +136,10 @@ core_middle(const otx_chart *chart)
 
 /* Corners of the core: they must land inside an exemplar that does not tile. */
 static otx_vec2 *
-core_points(otx_mapper *m, const otx_chart *chart, int32_t *count)
+core_points(const otx_chart *chart, otx_arena *scratch, int32_t *count)
 {
     const int32_t corners = chart->first[chart->core_count];
-    otx_vec2 *points = OTX_NEW(m->run->scratch, otx_vec2, corners);
+    otx_vec2 *points = OTX_NEW(scratch, otx_vec2, corners);
 
     *count = corners;
     for (int32_t c = 0; points && c < corners; ++c)
@@ -167,7 +180,7 @@ shift_range(
  * match [Soler02, sec. 2.2]. Tries orientations until one lies inside. */
 static bool
 place_freely(
-    otx_mapper *m, int32_t index, const otx_vec2 *points, int32_t count,
+    const otx_mapper *m, int32_t index, const otx_vec2 *points, int32_t count,
     otx_match *out)
 {
     const otx_image *image = &m->exemplar->match;
@@ -261,8 +274,7 @@ place_first(
 
 static otx_status
 search(
-    otx_mapper *m, int32_t index, const otx_mask *mask, otx_vec2 middle,
-    const otx_vec2 *points, int32_t point_count, otx_match *best,
+    const otx_mapper *m, const trial *t, const otx_mask *mask, otx_match *best,
     int32_t *count)
 {
     const otx_hierarchical_settings *s = &m->settings;
@@ -270,29 +282,155 @@ search(
                                          : 2.0 * OTX_PI *
                                                otx_random_unit(
                                                    m->run->seed, STAGE_ANGLE,
-                                                   (uint64_t)index * 64u);
+                                                   (uint64_t)t->index * 64u);
     double angles[360];
     otx_match_query query = otx_match_query_defaults(angles, s->angles);
 
     for (int32_t k = 0; k < s->angles; ++k)
         angles[k] = start + 2.0 * OTX_PI * k / s->angles;
     if (m->request->guide)
-        query.angle_count = otx_guide_angles(m, &m->nodes[index], angles);
+        query.angle_count = otx_guide_angles(m, &m->nodes[t->index], angles);
     query.coarse_levels = s->coarse;
     query.coarse_keep = s->keep;
     query.gauss_newton = s->mode == OTX_HIERARCHICAL_BEST;
-    query.cover = points;
-    query.cover_count = point_count;
-    query.centre = middle;
+    query.cover = t->points;
+    query.cover_count = t->point_count;
+    query.centre = core_middle(&m->nodes[t->index].chart);
     if (s->usage > 0.0 && m->done_area > 0.0)
     {
         query.usage = m->usage;
         query.usage_width = query.usage_height = OTX_USAGE_CELLS;
         query.usage_weight = s->usage;
     }
-    ++m->stats->fit_count;
-    return otx_matcher_search(
-        m->run, m->matcher, mask, &query, best, s->candidates, count);
+    return t->alone ? otx_matcher_search(
+                          m->run, m->matcher, mask, &query, best, s->candidates,
+                          count)
+                    : otx_matcher_search_serial(
+                          t->scratch, m->matcher, mask, &query, best,
+                          s->candidates, count);
+}
+
+/* Puts the exact continuation first when the search found nothing better. */
+static void
+offer_continuation(
+    const otx_mapper *m, const trial *t, const otx_mask *mask, otx_match *best,
+    int32_t *count)
+{
+    otx_match match;
+
+    if (!otx_continuation_match(m, mask, t->points, t->point_count, &match) ||
+        (*count > 0 && match.error > best[0].error))
+        return;
+    best[0] = match;
+    *count = *count > 0 ? *count : 1;
+}
+
+static bool
+is_users_first(const otx_mapper *m, const otx_node *node)
+{
+    const int32_t face = m->request->first_face;
+
+    if (face < 0 || m->patch_count > 0)
+        return false;
+    for (int32_t i = 0; i < node->leaf_count; ++i)
+        if (m->leaves.level->face_cage[node->leaves[i]] == face)
+            return true;
+    return false;
+}
+
+/* Looks at what is committed and changes nothing but the node's own chart. */
+static otx_status
+find_place(const otx_mapper *m, trial *t, otx_fit *fit)
+{
+    const otx_node *node = &m->nodes[t->index];
+    const bool bend = m->settings.relax == OTX_HIERARCHICAL_RELAX_LOOP;
+    otx_match best[16];
+    otx_mask mask;
+    int32_t count = 0;
+
+    t->points = core_points(&node->chart, t->scratch, &t->point_count);
+    if (!t->points)
+        return OSDTEX_ERROR_MEMORY;
+    OTX_TRY(make_mask(m, node, t->scratch, &mask));
+    fit->searched = mask.triangle_count > 0 && !is_users_first(m, node);
+    if (is_users_first(m, node))
+        count =
+            place_first(m, &node->chart, t->points, t->point_count, &best[0]);
+    else if (fit->searched)
+        OTX_TRY(search(m, t, &mask, best, &count));
+    else
+        count = place_freely(m, t->index, t->points, t->point_count, &best[0]);
+    if (m->settings.continuation && mask.triangle_count > 0)
+        offer_continuation(m, t, &mask, best, &count);
+    /* The surroundings may reach out of the exemplar where the patch does not;
+     * a patch that cannot be split goes without them. */
+    if (count == 0 && !otx_nodes_can_split(m, node))
+        count = place_freely(m, t->index, t->points, t->point_count, &best[0]);
+    if (bend && count > 0 && mask.triangle_count > 0)
+        OTX_TRY(otx_loop_relax(
+            m, t->index, best, count, t->space, t->scratch, &best[0]));
+    fit->found = count > 0;
+    fit->placed = best[0];
+    return OSDTEX_OK;
+}
+
+/* -- waves --------------------------------------------------------------- */
+
+typedef struct wave
+{
+    const otx_mapper *mapper;
+    otx_fit *fits;
+} wave;
+
+static otx_status
+fit_of_wave(void *context, int64_t index, otx_worker *worker)
+{
+    const wave *w = context;
+    trial t = {
+        .index = w->fits[index].node,
+        .scratch = worker->scratch,
+        .space = &w->mapper->spaces[worker->index]};
+
+    return find_place(w->mapper, &t, &w->fits[index]);
+}
+
+/* One node with all threads. */
+static otx_status
+fit_alone(const otx_mapper *m, otx_fit *fit)
+{
+    const otx_arena_mark mark = otx_arena_here(m->run->scratch);
+    trial t = {
+        .index = fit->node,
+        .alone = true,
+        .scratch = m->run->scratch,
+        .space = &m->spaces[0]};
+    const otx_status status = find_place(m, &t, fit);
+
+    otx_arena_release(m->run->scratch, mark);
+    return status == OSDTEX_ERROR_MEMORY ? otx_fail_memory(m->run, "map")
+                                         : status;
+}
+
+/* Both ways find the same, to the bit; which is faster depends on how many
+ * threads there are. What a search objects to is said only to a lone fit. */
+otx_status
+otx_fit_find(const otx_mapper *m, otx_fit *fits, int32_t count)
+{
+    wave w = {m, fits};
+
+    if (count > 1 && count >= otx_pool_threads(m->run->pool))
+    {
+        const otx_status status =
+            otx_pool_for(m->run->pool, count, fit_of_wave, &w);
+
+        if (status == OSDTEX_ERROR_MEMORY)
+            return otx_fail_memory(m->run, "map");
+        if (status == OSDTEX_OK)
+            return OSDTEX_OK;
+    }
+    for (int32_t i = 0; i < count; ++i)
+        OTX_TRY(fit_alone(m, &fits[i]));
+    return OSDTEX_OK;
 }
 
 /* -- commit -------------------------------------------------------------- */
@@ -318,7 +456,7 @@ note_usage(otx_mapper *m, const otx_node *node, otx_vec2 middle)
 }
 
 static void
-commit(otx_mapper *m, int32_t index, otx_match placed, otx_vec2 middle)
+commit(otx_mapper *m, int32_t index, otx_match placed)
 {
     otx_node *node = &m->nodes[index];
     const otx_chart *chart = &node->chart;
@@ -342,71 +480,18 @@ commit(otx_mapper *m, int32_t index, otx_match placed, otx_vec2 middle)
     m->stats->fit_error_mean += placed.error;
     ++m->stats
           ->patches[node->cluster.face_count > 1 ? 0 : node->cluster.level + 1];
-    note_usage(m, node, middle);
+    note_usage(m, node, core_middle(chart));
 }
 
-/* Puts the exact continuation first when the search found nothing better. */
-static void
-offer_continuation(
-    const otx_mapper *m, const otx_mask *mask, const otx_vec2 *points,
-    int32_t point_count, otx_match *best, int32_t *count)
+bool
+otx_fit_commit(otx_mapper *m, const otx_fit *fit)
 {
-    otx_match match;
+    const otx_node *node = &m->nodes[fit->node];
 
-    if (!otx_continuation_match(m, mask, points, point_count, &match) ||
-        (*count > 0 && match.error > best[0].error))
-        return;
-    best[0] = match;
-    *count = *count > 0 ? *count : 1;
-}
-
-static bool
-is_users_first(const otx_mapper *m, const otx_node *node)
-{
-    const int32_t face = m->request->first_face;
-
-    if (face < 0 || m->patch_count > 0)
+    m->stats->fit_count += fit->searched;
+    if (!fit->found ||
+        (fit->placed.error > m->settings.tau && otx_nodes_can_split(m, node)))
         return false;
-    for (int32_t i = 0; i < node->leaf_count; ++i)
-        if (m->leaves.level->face_cage[node->leaves[i]] == face)
-            return true;
-    return false;
-}
-
-otx_status
-otx_fit_node(otx_mapper *m, int32_t index, bool *accepted)
-{
-    const otx_arena_mark mark = otx_arena_here(m->run->scratch);
-    otx_node *node = &m->nodes[index];
-    const otx_vec2 middle = core_middle(&node->chart);
-    otx_match best[16];
-    int32_t count = 0, point_count;
-    otx_vec2 *points = core_points(m, &node->chart, &point_count);
-    otx_mask mask;
-
-    if (!points)
-        return otx_fail_memory(m->run, "map");
-    OTX_TRY(make_mask(m, node, &mask));
-    if (is_users_first(m, node))
-        count = place_first(m, &node->chart, points, point_count, &best[0]);
-    else if (mask.triangle_count == 0)
-        count = place_freely(m, index, points, point_count, &best[0]);
-    else
-        OTX_TRY(
-            search(m, index, &mask, middle, points, point_count, best, &count));
-    if (m->settings.continuation && mask.triangle_count > 0)
-        offer_continuation(m, &mask, points, point_count, best, &count);
-    /* The surroundings may reach out of the exemplar where the patch does not;
-     * a patch that cannot be split goes without them. */
-    if (count == 0 && !otx_nodes_can_split(m, node))
-        count = place_freely(m, index, points, point_count, &best[0]);
-    if (m->settings.relax == OTX_HIERARCHICAL_RELAX_LOOP && count > 0 &&
-        mask.triangle_count > 0)
-        OTX_TRY(otx_loop_relax(m, index, best, count, &best[0]));
-    *accepted = count > 0 && (best[0].error <= m->settings.tau ||
-                              !otx_nodes_can_split(m, node));
-    if (*accepted)
-        commit(m, index, best[0], middle);
-    otx_arena_release(m->run->scratch, mark);
-    return OSDTEX_OK;
+    commit(m, fit->node, fit->placed);
+    return true;
 }

@@ -1,26 +1,9 @@
 /* hierarchical.c -- the main loop [Soler02, sec. 2.2].
  *
- * One queue for all levels: the key puts coarser clusters first and, within a
- * level, those with the largest share of textured border, so that a patch
- * finds as much to match as there is. Flatness depends on the surface alone,
- * so clusters that are not flat are split before anything is fitted, and all
- * charts are made in parallel. */
+ * One queue for all levels; wave.c says what comes first. Flatness depends on
+ * the surface alone, so clusters that are not flat are split before anything
+ * is fitted, and all charts are made in parallel. */
 #include "method/hierarchical/hierarchical.h"
-
-#include "base/queue.h"
-
-/* Flattest first where nothing is textured yet; below any difference that the
- * textured share can make. */
-static double
-queue_key(const otx_mapper *m, int32_t index)
-{
-    const otx_node *node = &m->nodes[index];
-    const double share =
-        node->border > 0.0 ? node->textured / node->border : 0.0;
-    const double bend = fmin(node->chart.distortion - 1.0, 1.0);
-
-    return 4.0 * node->depth - share + 1e-3 * bend;
-}
 
 /* Flattens the nodes from `first` on, splits what is not flat, and goes on with
  * the children, until all are. */
@@ -65,7 +48,7 @@ wake_neighbours(otx_mapper *m, otx_queue *queue, int32_t index)
             next->textured += otx_nodes_edge_length(
                 m, leaf->face_edges[leaf->face_first[f] + k]);
             if (!otx_queue_push(
-                    queue, queue_key(m, m->leaf_node[other]),
+                    queue, otx_wave_key(m, m->leaf_node[other]),
                     m->leaf_node[other]))
                 return false;
         }
@@ -77,7 +60,8 @@ static bool
 push_range(otx_mapper *m, otx_queue *queue, int32_t first, int32_t end)
 {
     for (int32_t i = first; i < end; ++i)
-        if (!m->nodes[i].retired && !otx_queue_push(queue, queue_key(m, i), i))
+        if (!m->nodes[i].retired &&
+            !otx_queue_push(queue, otx_wave_key(m, i), i))
             return false;
     return true;
 }
@@ -127,38 +111,50 @@ users_first(const otx_mapper *m)
     return -1;
 }
 
+/* Commits a wave in its order; what is not accepted is split. */
+static otx_status
+settle(otx_mapper *m, otx_queue *queue, const otx_fit *fits, int32_t count)
+{
+    for (int32_t i = 0; i < count; ++i)
+    {
+        const int32_t index = fits[i].node;
+
+        if (otx_fit_commit(m, &fits[i]))
+        {
+            if (!wake_neighbours(m, queue, index))
+                return otx_fail_memory(m->run, "map");
+        }
+        else if (!otx_nodes_can_split(m, &m->nodes[index]))
+            return fails_to_fit(m, index);
+        else
+            OTX_TRY(descend(m, queue, index));
+    }
+    return OSDTEX_OK;
+}
+
 static otx_status
 fit_all(otx_mapper *m)
 {
     otx_queue queue = otx_queue_make(m->run->scratch);
     const int32_t first = users_first(m);
-    otx_queue_entry entry;
+    otx_fit fits[OTX_WAVE_NODES];
+    int32_t count;
 
     if ((first >= 0 && !otx_queue_push(&queue, -INFINITY, first)) ||
         !push_range(m, &queue, 0, m->node_count))
         return otx_fail_memory(m->run, "map");
-    while (otx_queue_pop(&queue, &entry))
+    OTX_TRY(otx_wave_next(m, &queue, fits, &count));
+    while (count > 0)
     {
-        otx_node *node = &m->nodes[entry.item];
-        bool accepted;
-
-        if (node->patch >= 0 || node->retired)
-            continue;
-        if (isfinite(entry.key) && entry.key > queue_key(m, entry.item))
-            continue;
-        OTX_TRY(otx_fit_node(m, entry.item, &accepted));
-        if (!accepted && !otx_nodes_can_split(m, node))
-            return fails_to_fit(m, entry.item);
-        if (!accepted)
-            OTX_TRY(descend(m, &queue, entry.item));
-        else if (!wake_neighbours(m, &queue, entry.item))
-            return otx_fail_memory(m->run, "map");
+        OTX_TRY(otx_fit_find(m, fits, count));
+        OTX_TRY(settle(m, &queue, fits, count));
         /* The user's first patch was split: its part comes first. */
         if (first >= 0 && m->patch_count == 0 &&
             !otx_queue_push(&queue, -INFINITY, users_first(m)))
             return otx_fail_memory(m->run, "map");
         OTX_TRY(otx_progress(
             m->run, "fit", fmin(1.0, m->done_area / m->total_area)));
+        OTX_TRY(otx_wave_next(m, &queue, fits, &count));
     }
     return OSDTEX_OK;
 }

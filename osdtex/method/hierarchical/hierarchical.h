@@ -9,6 +9,7 @@
 #ifndef OTX_METHOD_HIERARCHICAL_H
 #define OTX_METHOD_HIERARCHICAL_H
 
+#include "base/queue.h"
 #include "flatten/chart.h"
 #include "match/match.h"
 #include "method/method.h"
@@ -80,6 +81,7 @@ typedef struct otx_node
     double textured;  /* of that, beside textured faces */
     int32_t patch;    /* -1 until fitted */
     bool retired;     /* split: its children have its leaves */
+    int32_t wave;     /* the last in which it or a neighbour was fitted */
     otx_arena *arena; /* of the chart; NULL until flattened */
     otx_chart chart;
     otx_match placed; /* where the chart lies in the exemplar */
@@ -110,13 +112,15 @@ typedef struct otx_mapper
     int32_t *patch_node; /* [leaf face_count] */
     otx_offer *offers;   /* [patch_count] */
     float *usage;        /* see otx_match_query */
+    int32_t wave_count;  /* so far */
     double done_area;    /* of textured leaves */
     double total_area;
 } otx_mapper;
 
 enum
 {
-    OTX_USAGE_CELLS = 16 /* a side */
+    OTX_USAGE_CELLS = 16, /* a side */
+    OTX_WAVE_NODES = 16   /* fitted at the same time, at most */
 };
 
 /* nodes.c: clusters to start with, charts, splitting. */
@@ -146,11 +150,33 @@ bool otx_nodes_can_split(const otx_mapper *m, const otx_node *node);
 /* Retires a node and appends its children, unflattened. */
 otx_status otx_nodes_split(otx_mapper *m, int32_t node);
 
-/* fit.c: looks a node up in the exemplar and commits it.
+/* Where a node is to be put. */
+typedef struct otx_fit
+{
+    int32_t node;
+    bool found;    /* false: it fits nowhere */
+    bool searched; /* it had something to match */
+    otx_match placed;
+} otx_fit;
+
+/* fit.c: looks nodes up in the exemplar, each as if it were alone. With
+ * relax=loop their charts are bent; else only `fits` changes.
  *
- *   accepted  false when the error is above tau and the node can be split, or
- *             when it fits nowhere */
-otx_status otx_fit_node(otx_mapper *m, int32_t node, bool *accepted);
+ *   fits   [count] the nodes in, what was found out
+ *   count  >= 1 */
+otx_status otx_fit_find(const otx_mapper *m, otx_fit *fits, int32_t count);
+/* Makes a patch of a node. False when the error is above tau and the node can
+ * be split, or when it fits nowhere. */
+bool otx_fit_commit(otx_mapper *m, const otx_fit *fit);
+
+/* wave.c: takes nodes from the queue that may be fitted at the same time.
+ *
+ *   key    of a node in the queue, the least first
+ *   fits   [OTX_WAVE_NODES] the nodes
+ *   count  0 when the queue is empty */
+double otx_wave_key(const otx_mapper *m, int32_t node);
+otx_status
+otx_wave_next(otx_mapper *m, otx_queue *queue, otx_fit *fits, int32_t *count);
 
 /* given.c: takes over what is textured already. */
 void otx_given_take(otx_mapper *m);
@@ -188,10 +214,13 @@ bool otx_continuation_match(
  * the best one.
  *
  *   count  of placed, at least 1
- *   best   with the error that is left along the border; may be &placed[0] */
+ *   space, scratch  of the thread
+ *   best   with the error that is left along the border; may be &placed[0]
+ *
+ * MEMORY, without a finding. */
 otx_status otx_loop_relax(
-    otx_mapper *m, int32_t node, const otx_match *placed, int32_t count,
-    otx_match *best);
+    const otx_mapper *m, int32_t node, const otx_match *placed, int32_t count,
+    otx_chart_space *space, otx_arena *scratch, otx_match *best);
 
 /* offer.c: what patches can show, and the cut that chooses. */
 /* Makes the offer of every patch. */

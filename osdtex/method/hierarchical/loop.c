@@ -38,14 +38,14 @@ keep_bend(otx_chart *chart, otx_match placed, const otx_vec2 *uv)
 
 otx_status
 otx_loop_relax(
-    otx_mapper *m, int32_t index, const otx_match *placed, int32_t count,
-    otx_match *best)
+    const otx_mapper *m, int32_t index, const otx_match *placed, int32_t count,
+    otx_chart_space *space, otx_arena *scratch, otx_match *best)
 {
-    const otx_arena_mark mark = otx_arena_here(m->run->scratch);
+    const otx_arena_mark mark = otx_arena_here(scratch);
     otx_node *node = &m->nodes[index];
     const int32_t verts = node->chart.vert_count;
-    otx_vec2 *uv = OTX_NEW(m->run->scratch, otx_vec2, verts);
-    otx_vec2 *kept = OTX_NEW(m->run->scratch, otx_vec2, verts);
+    otx_vec2 *uv = OTX_NEW(scratch, otx_vec2, verts);
+    otx_vec2 *kept = OTX_NEW(scratch, otx_vec2, verts);
     otx_nudge_request request = {
         .surface = m->surface,
         .exemplar = m->exemplar,
@@ -56,7 +56,7 @@ otx_loop_relax(
     double least = INFINITY;
 
     if (!uv || !kept)
-        return otx_fail_memory(m->run, "map");
+        return OSDTEX_ERROR_MEMORY;
     for (int32_t i = 0; i < count; ++i)
     {
         const uint64_t element = (uint64_t)index * 16u + (uint64_t)i;
@@ -64,10 +64,9 @@ otx_loop_relax(
 
         request.seed = otx_random_bits(m->run->seed, STAGE_NUDGE, element);
         place_chart(&node->chart, placed[i], uv);
-        if (otx_nudge_run(
-                &request, &node->cluster, &node->chart, m->spaces[0].vert_slot,
-                m->run->scratch, uv, &error) != OSDTEX_OK)
-            return otx_fail_memory(m->run, "map");
+        OTX_TRY(otx_nudge_run(
+            &request, &node->cluster, &node->chart, space->vert_slot, scratch,
+            uv, &error));
         if (!(error < least))
             continue;
         least = error;
@@ -76,6 +75,6 @@ otx_loop_relax(
     }
     best->error = least;
     keep_bend(&node->chart, *best, kept);
-    otx_arena_release(m->run->scratch, mark);
+    otx_arena_release(scratch, mark);
     return OSDTEX_OK;
 }
