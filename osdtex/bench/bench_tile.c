@@ -124,10 +124,8 @@ enum
 {
     PICTURE = 256,
     TILES = 16,
-    ODD = 4, /* a tile that no turn maps to itself: no ties */
-    WINDOWS = 8,
-    PATCHES = 2,
-    ROUNDS = 2,
+    WINDOWS_MAX = 64,
+    ODD = 4,  /* a tile that no turn maps to itself: no ties */
     BLOCK = 8 /* as ring_search.c */
 };
 
@@ -274,7 +272,7 @@ direct_find(
 static otx_status
 make_by(make_job *job, bool direct)
 {
-    static const otx_interior_options options = {WINDOWS, PATCHES, ROUNDS};
+    const otx_interior_options *how = &otx_tileset_interior;
     const otx_ring_region all = {0, 0, 0, 0};
     const otx_arena_mark mark = otx_arena_here(job->run.arena);
     double sum = 0.0, length = 0.0;
@@ -288,24 +286,24 @@ make_by(make_job *job, bool direct)
     {
         const otx_tile_name name = otx_tile_layout_name(
             &job->layout, (i * TILES / job->tiles + ODD) % TILES);
-        otx_texel_window windows[WINDOWS + 4 * PATCHES];
+        otx_texel_window windows[WINDOWS_MAX];
         otx_quilt_seams seams;
         int32_t count;
 
         if (direct)
         {
             count = direct_find(
-                job, &name, OTX_RING_SEARCH_SIDES, WINDOWS, windows);
+                job, &name, OTX_RING_SEARCH_SIDES, how->windows, windows);
             for (int32_t side = 0; side < 4; ++side)
                 count += direct_find(
-                    job, &name, 1 << side, PATCHES, windows + count);
+                    job, &name, 1 << side, how->side_windows, windows + count);
             OTX_TRY(otx_interior_fill(
-                &job->run, &job->search, &name, windows, count, ROUNDS, &map,
+                &job->run, &job->search, &name, NULL, how, windows, count, &map,
                 &seams));
         }
         else
             OTX_TRY(otx_interior_build(
-                &job->run, &job->search, &name, &options, &map, &seams));
+                &job->run, &job->search, &name, NULL, how, &map, &seams));
         sum += seams.mean * (double)seams.length;
         length += (double)seams.length;
     }

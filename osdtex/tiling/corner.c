@@ -25,7 +25,7 @@ lay_sector(
 
         OTX_TRY(otx_texel_map_create(run, run->scratch, reach, reach, &map));
         otx_texel_pool_lay(pool, sheets[i], &map);
-        otx_quilt_add(quilt, map);
+        otx_quilt_add(quilt, 0, 0, map);
     }
     for (int32_t j = 0; j < reach; ++j)
         for (int32_t i = 0; i < reach; ++i)

@@ -37,7 +37,7 @@ lay_side(
                            ? otx_frame_side_texel(kit, name, side, p)
                            : OTX_TEXEL_NONE;
         }
-    otx_quilt_add(quilt, sheet);
+    otx_quilt_add(quilt, 0, 0, sheet);
     return OSDTEX_OK;
 }
 
@@ -51,7 +51,7 @@ lay_window(
     OTX_TRY(otx_texel_map_create(
         run, run->scratch, quilt->width, quilt->height, &sheet));
     otx_texel_pool_lay(pool, window, &sheet);
-    otx_quilt_add(quilt, sheet);
+    otx_quilt_add(quilt, 0, 0, sheet);
     return OSDTEX_OK;
 }
 
@@ -115,8 +115,9 @@ take_texels(
 otx_status
 otx_interior_fill(
     otx_run *run, const otx_ring_search *search, const otx_tile_name *name,
-    const otx_texel_window *windows, int32_t window_count, int32_t rounds,
-    otx_texel_map *map, otx_quilt_seams *seams)
+    const otx_patch_search *patches, const otx_interior_options *options,
+    const otx_texel_window *windows, int32_t window_count, otx_texel_map *map,
+    otx_quilt_seams *seams)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     const otx_frame_kit *kit = search->kit;
@@ -135,7 +136,9 @@ otx_interior_fill(
     for (int32_t s = 0; s <= 4; ++s)
         otx_quilt_fill(quilt, s);
     otx_quilt_price(quilt);
-    OTX_TRY(settle(run, quilt, rounds));
+    OTX_TRY(settle(run, quilt, options->rounds));
+    if (patches)
+        OTX_TRY(otx_patchwork_mend(run, patches, &options->patchwork, quilt));
     take_texels(kit, name, quilt, map);
     if (seams)
         *seams = otx_quilt_measure(quilt);
@@ -146,11 +149,11 @@ otx_interior_fill(
 otx_status
 otx_interior_build(
     otx_run *run, const otx_ring_search *search, const otx_tile_name *name,
-    const otx_interior_options *options, otx_texel_map *map,
-    otx_quilt_seams *seams)
+    const otx_patch_search *patches, const otx_interior_options *options,
+    otx_texel_map *map, otx_quilt_seams *seams)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    const int32_t room = options->windows + 4 * options->patches;
+    const int32_t room = options->windows + 4 * options->side_windows;
     otx_texel_window *windows = OTX_NEW(run->scratch, otx_texel_window, room);
     int32_t count;
 
@@ -162,7 +165,7 @@ otx_interior_build(
     for (int32_t side = 0; side < 4 && count >= 0; ++side)
     {
         const int32_t more = otx_ring_search_find(
-            run->scratch, search, name, 1 << side, options->patches,
+            run->scratch, search, name, 1 << side, options->side_windows,
             windows + count);
 
         count = more < 0 ? -1 : count + more;
@@ -170,7 +173,7 @@ otx_interior_build(
     if (count < 0)
         return otx_fail_memory(run, STAGE);
     OTX_TRY(otx_interior_fill(
-        run, search, name, windows, count, options->rounds, map, seams));
+        run, search, name, patches, options, windows, count, map, seams));
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }

@@ -21,16 +21,23 @@
 
 enum
 {
-    OTX_QUILT_MAX_SHEETS = 64,
+    OTX_QUILT_MAX_SHEETS = 255,
     OTX_QUILT_FREE = 255
 };
+
+/* A picture at a place of the quilt; outside of it there is nothing. */
+typedef struct otx_quilt_sheet
+{
+    int32_t x, y; /* lower left texel */
+    otx_texel_map map;
+} otx_quilt_sheet;
 
 typedef struct otx_quilt
 {
     const otx_texel_pool *pool;
     int32_t width, height;
     int32_t sheet_count;
-    otx_texel_map sheets[OTX_QUILT_MAX_SHEETS]; /* of the quilt's size */
+    otx_quilt_sheet sheets[OTX_QUILT_MAX_SHEETS];
     uint8_t *labels; /* [height * width] the sheet that shows */
     uint8_t *locks;  /* [height * width] the sheet that must, or
                       * OTX_QUILT_FREE */
@@ -49,9 +56,18 @@ otx_status otx_quilt_create(
     otx_run *run, otx_arena *arena, const otx_texel_pool *pool, int32_t width,
     int32_t height, otx_quilt *out);
 
-/* Adds a sheet, whose texels the quilt borrows, and returns its number, -1
- * when there are too many. Sheets may have holes (OTX_TEXEL_NONE). */
-int32_t otx_quilt_add(otx_quilt *quilt, otx_texel_map sheet);
+/* Adds a sheet with its lower left texel at (x, y), whose texels the quilt
+ * borrows, and returns its number, -1 when there are too many. It must lie
+ * within the quilt, and may have holes (OTX_TEXEL_NONE). */
+int32_t
+otx_quilt_add(otx_quilt *quilt, int32_t x, int32_t y, otx_texel_map map);
+
+/* Takes off the sheet that was added last, which must not show. */
+static inline void
+otx_quilt_drop(otx_quilt *quilt)
+{
+    --quilt->sheet_count;
+}
 
 /* Shows `sheet` wherever it may be, regardless of seams. */
 void otx_quilt_fill(otx_quilt *quilt, int32_t sheet);
@@ -63,15 +79,36 @@ otx_status otx_quilt_expand(otx_run *run, otx_quilt *quilt, int32_t sheet);
 /* Computes quilt->cost from the labels. */
 void otx_quilt_price(otx_quilt *quilt);
 
+/* What the seams cost between each texel and those to its right and above.
+ *
+ *   out  [height * width] */
+void otx_quilt_map_cost(const otx_quilt *quilt, int64_t *out);
+
 otx_quilt_seams otx_quilt_measure(const otx_quilt *quilt);
+
+/* What a sheet has at (x, y) of the quilt. */
+static inline int32_t
+otx_quilt_sheet_texel(const otx_quilt_sheet *sheet, int32_t x, int32_t y)
+{
+    const int32_t i = x - sheet->x, j = y - sheet->y;
+
+    if (i < 0 || j < 0 || i >= sheet->map.width || j >= sheet->map.height)
+        return OTX_TEXEL_NONE;
+    return otx_texel_map_at(&sheet->map, i, j);
+}
+
+static inline size_t
+otx_quilt_at(const otx_quilt *quilt, int32_t x, int32_t y)
+{
+    return (size_t)y * (size_t)quilt->width + (size_t)x;
+}
 
 /* The texel that shows. */
 static inline int32_t
 otx_quilt_texel(const otx_quilt *quilt, int32_t x, int32_t y)
 {
-    const size_t at = (size_t)y * (size_t)quilt->width + (size_t)x;
-
-    return quilt->sheets[quilt->labels[at]].texels[at];
+    return otx_quilt_sheet_texel(
+        &quilt->sheets[quilt->labels[otx_quilt_at(quilt, x, y)]], x, y);
 }
 
 #endif

@@ -35,7 +35,7 @@ lay_corner(
                            ? otx_corner_texel(corner, x, d)
                            : OTX_TEXEL_NONE;
         }
-    otx_quilt_add(quilt, sheet);
+    otx_quilt_add(quilt, 0, 0, sheet);
     return OSDTEX_OK;
 }
 
@@ -72,7 +72,7 @@ otx_strip_build(
     mark = otx_arena_here(run->scratch);
     OTX_TRY(otx_quilt_create(
         run, run->scratch, pool, sizes->side, 2 * sizes->reach, &quilt));
-    otx_quilt_add(&quilt, *edge);
+    otx_quilt_add(&quilt, 0, 0, *edge);
     OTX_TRY(lay_corner(run, sizes, start, 0, &quilt));
     OTX_TRY(lay_corner(run, sizes, end, sizes->side, &quilt));
     lock_ends(sizes, &quilt);

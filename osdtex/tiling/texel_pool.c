@@ -145,12 +145,3 @@ otx_texel_pool_resample(
             *texel++ = (int32_t)n;
         }
 }
-
-double
-otx_texel_pool_distance(const otx_texel_pool *pool, int32_t a, int32_t b)
-{
-    const float *p = pool->lab + 3 * (size_t)a, *q = pool->lab + 3 * (size_t)b;
-    const double l = p[0] - q[0], m = p[1] - q[1], n = p[2] - q[2];
-
-    return sqrt(l * l + m * m + n * n);
-}

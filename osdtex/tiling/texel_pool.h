@@ -10,6 +10,8 @@
 
 #include "image/exemplar.h"
 
+#include <math.h>
+
 enum
 {
     OTX_TEXEL_NONE = -1
@@ -94,8 +96,20 @@ void otx_texel_pool_resample(
     otx_texel_pool *pool, otx_vec2 centre, double angle, double step,
     otx_texel_map *map);
 
-/* Distance of two texels in Lab. */
-double
-otx_texel_pool_distance(const otx_texel_pool *pool, int32_t a, int32_t b);
+/* Squared distance of two texels in Lab. */
+static inline double
+otx_texel_pool_square(const otx_texel_pool *pool, int32_t a, int32_t b)
+{
+    const float *p = pool->lab + 3 * (size_t)a, *q = pool->lab + 3 * (size_t)b;
+    const double l = p[0] - q[0], m = p[1] - q[1], n = p[2] - q[2];
+
+    return l * l + m * m + n * n;
+}
+
+static inline double
+otx_texel_pool_distance(const otx_texel_pool *pool, int32_t a, int32_t b)
+{
+    return sqrt(otx_texel_pool_square(pool, a, b));
+}
 
 #endif

@@ -8,8 +8,9 @@
 enum
 {
     DEFAULT_CELL = 128,
-    PIECE = 8, /* tiles between two looks at the clock */
-    RAY = 2    /* texels beside a ray that a corner keeps, see corner.c */
+    PIECE = 8,  /* tiles between two looks at the clock */
+    PATCH = 24, /* texels on a side of the patches that mend seams */
+    RAY = 2     /* texels beside a ray that a corner keeps, see corner.c */
 };
 
 static const char STAGE[] = "tiles";
@@ -180,12 +181,40 @@ otx_tileset_plan(
 
 /* ------------------------------------------------------------- all tiles */
 
+/* Measured on the photographs of docs/notes/tile.md: more of anything costs
+ * more time than it brings. */
+const otx_interior_options otx_tileset_interior = {
+    .windows = 4,
+    .side_windows = 0,
+    .rounds = 1,
+    .patchwork = {.spots = 60, .patches = 3},
+};
+
+/* Where patches for the inside may come from: the windows' region. */
+static otx_status
+open_patches(
+    otx_run *run, const otx_texel_pool *pool, const otx_ring_search *search,
+    otx_patch_search *out)
+{
+    const int32_t spare = search->kit->sizes.side - PATCH;
+    const int32_t most_x = otx_texel_pool_places_x(pool, PATCH);
+    const int32_t most_y = otx_texel_pool_places_y(pool, PATCH);
+    otx_patch_bounds b = {search->x0, search->y0, most_x, most_y};
+
+    if (b.x1 > search->x1 + spare)
+        b.x1 = search->x1 + spare;
+    if (b.y1 > search->y1 + spare)
+        b.y1 = search->y1 + spare;
+    return otx_patch_search_create(
+        run, pool, PATCH, &b, search->turns_step, out);
+}
+
 typedef struct filler
 {
     const otx_run *run;
     const otx_ring_search *search;
+    const otx_patch_search *patches;
     const otx_texel_pool *pool;
-    const otx_interior_options *options;
     otx_tileset *set;
     otx_quilt_seams *seams; /* [tile_count] */
     int32_t first;          /* tile of the piece at hand */
@@ -224,7 +253,8 @@ fill_tile(void *context, int64_t index, otx_worker *worker)
     OTX_TRY(otx_texel_map_create(
         &run, run.scratch, layout->cell, layout->cell, &map));
     OTX_TRY(otx_interior_build(
-        &run, f->search, &name, f->options, &map, &f->seams[cell]));
+        &run, f->search, &name, f->patches, &otx_tileset_interior, &map,
+        &f->seams[cell]));
     otx_tile_layout_origin(layout, cell, &x, &y);
     copy_texels(f->pool, &map, x, y, &f->set->linear);
     return OSDTEX_OK;
@@ -310,9 +340,9 @@ otx_tileset_make(
     otx_run *run, const otx_exemplar *exemplar,
     const otx_tileset_options *options, otx_tileset *out)
 {
-    static const otx_interior_options interior = {8, 2, 2};
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     otx_frame_kit kit = {0};
+    otx_patch_search patches;
     otx_ring_search search;
     otx_texel_pool pool;
     otx_run own = *run;
@@ -332,11 +362,12 @@ otx_tileset_make(
     OTX_TRY(otx_template_kit(&own, &pool, options, &out->layout, 0, &kit));
     OTX_TRY(otx_ring_search_create(
         &own, &pool, &kit, &out->layout, &options->background, &search));
+    OTX_TRY(open_patches(&own, &pool, &search, &patches));
     f = (filler){
         .run = run,
         .search = &search,
+        .patches = &patches,
         .pool = &pool,
-        .options = &interior,
         .set = out,
         .seams = OTX_ZNEW(own.arena, otx_quilt_seams, out->tile_count),
     };

@@ -44,6 +44,9 @@ typedef struct otx_tileset
     double random_pair; /* of two random texels */
 } otx_tileset;
 
+/* How insides are made. */
+extern const otx_interior_options otx_tileset_interior;
+
 /* The layout that otx_tileset_make will use, for whoever must know the names
  * before the tiles are made. ARGUMENT (options, a picture that is too small),
  * LIMIT. */
