@@ -67,7 +67,10 @@ cell_gradients(const otx_material *m, otx_vec2 gradient[2])
 static otx_status
 solve_phases(otx_material *m)
 {
-    otx_phase_request request = {.field = &m->field, .log_scale = m->log_scale};
+    otx_phase_request request = {
+        .field = &m->field,
+        .log_scale = m->log_scale,
+        .cancel = m->settings->cancel * m->cell};
 
     cell_gradients(m, request.gradient);
     OTX_TRY(otx_phase_solve(m->run, &request, &m->phase));

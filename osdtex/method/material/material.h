@@ -22,6 +22,7 @@ typedef struct otx_material_settings
 {
     int32_t symmetry; /* 0 auto, 1 one, 2 two */
     double octaves;
+    double cancel;
     double clear;
     int32_t fill;
     double turn;
@@ -31,7 +32,7 @@ typedef struct otx_material_settings
 extern const otx_option otx_material_options[];
 enum
 {
-    OTX_MATERIAL_OPTION_COUNT = 6
+    OTX_MATERIAL_OPTION_COUNT = 7
 };
 
 typedef struct otx_material

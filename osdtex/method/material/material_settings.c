@@ -12,6 +12,9 @@ const otx_option otx_material_options[] = {
     {"octaves", OTX_OPTION_REAL, FIELD(octaves), 0, 3, 0.5, NULL,
      "How far the texture's size may follow the curvature, in octaves; more "
      "gives fewer dislocations, less an even size"},
+    {"cancel", OTX_OPTION_REAL, FIELD(cancel), 0, 8, 1.5, NULL,
+     "Distance within which a dislocation is made to meet its opposite, a "
+     "singularity or a border, and vanish, in cells"},
     {"clear", OTX_OPTION_REAL, FIELD(clear), 0, 8, 0.6, NULL,
      "Distance from a dislocation within which patches replace the periodic "
      "texture, in cells"},

@@ -3,10 +3,8 @@
  * Senses are first made equal wherever they can be. Where all are, the systems
  * are complex; else they are real, of two unknowns to a vertex, at three times
  * the cost, since conjugation is not linear over the complex numbers. */
-#include "method/material/phase.h"
-
-#include "base/queue.h"
 #include "math/sparse.h"
+#include "method/material/settle.h"
 
 enum
 {
@@ -24,22 +22,7 @@ static const double WHOLE = 1e-3;
 static const double EDGES = 4.0, EDGES_OF_LARGE = 2.5;
 static const int32_t LARGE = 40000;
 
-typedef struct solver
-{
-    otx_run *run;
-    const otx_phase_request *request;
-    const otx_connection *c;
-    otx_phase *phase;
-    double *angles; /* [face_count] of the sense that the face takes */
-    int8_t *sense;  /* [corner_count] of the face against the vertex' */
-    double *mass;   /* [vert_count] area */
-    double tau;
-    double *wish[2]; /* [edge_count] steps asked for, in the first face's sense
-                      * along its half-edge */
-    double *step[2]; /* [edge_count] steps that the phases make */
-    double *z[2];    /* [2 vert_count] */
-    bool one_sense;  /* all faces agree: complex systems do */
-} solver;
+typedef otx_phase_solver solver;
 
 /* -- senses -------------------------------------------------------------- */
 
@@ -219,9 +202,9 @@ make_wishes(solver *s, int axis)
     }
 }
 
-/* Corners of the first face at the two ends of an edge. */
-static void
-edge_corners(const otx_connection *c, int32_t edge, int32_t corners[2])
+void
+otx_phase_edge_corners(
+    const otx_connection *c, int32_t edge, int32_t corners[2])
 {
     const int32_t face = c->level->edge_faces[2 * (size_t)edge];
 
@@ -255,8 +238,8 @@ add_block(
     return count;
 }
 
-static double
-edge_weight(const otx_connection *c, int32_t edge)
+double
+otx_phase_edge_weight(const otx_connection *c, int32_t edge)
 {
     return c->inner[edge] ? 1.0 / c->weights[edge] : 0.5;
 }
@@ -268,7 +251,7 @@ add_edge(
     const solver *s, int axis, int32_t edge, const int32_t v[2],
     const int sense[2], otx_sparse_entry *entries)
 {
-    const double w = edge_weight(s->c, edge);
+    const double w = otx_phase_edge_weight(s->c, edge);
     const double angle = 2.0 * OTX_PI * s->wish[axis][edge];
     const int32_t width = s->one_sense ? 1 : 2;
     int64_t count = 0;
@@ -306,7 +289,7 @@ factor(solver *s, int axis, otx_arena *arena, otx_sparse **out)
     {
         int32_t at[2];
 
-        edge_corners(s->c, e, at);
+        otx_phase_edge_corners(s->c, e, at);
         count += add_edge(
             s, axis, e,
             (const int32_t[2]){
@@ -350,19 +333,20 @@ vertex_phase(const solver *s, int axis, int32_t vertex)
 static void
 read_steps(solver *s, int axis)
 {
-
+    for (int32_t v = 0; v < s->c->level->vert_count; ++v)
+        s->turn[axis][v] = vertex_phase(s, axis, v);
     for (int32_t e = 0; e < s->c->level->edge_count; ++e)
     {
         const double wish = s->wish[axis][e];
         double turn[2];
         int32_t at[2];
 
-        edge_corners(s->c, e, at);
+        otx_phase_edge_corners(s->c, e, at);
         for (int k = 0; k < 2; ++k)
         {
             const int32_t v = s->c->level->face_verts[at[k]];
 
-            turn[k] = s->sense[at[k]] * vertex_phase(s, axis, v);
+            turn[k] = s->sense[at[k]] * s->turn[axis][v];
         }
         s->step[axis][e] = turn[1] - turn[0];
         s->step[axis][e] += round(wish - s->step[axis][e]);
@@ -401,9 +385,8 @@ solve_axis(void *context, int64_t axis, otx_worker *worker)
 
 /* -- cells of faces ------------------------------------------------------ */
 
-/* Step along half-edge `corner` of `face`, in its sense. */
-static double
-face_step(const solver *s, int32_t face, int32_t corner, int axis)
+double
+otx_phase_face_step(const solver *s, int32_t face, int32_t corner, int axis)
 {
     const int32_t edge = s->c->level->face_edges[corner];
 
@@ -419,15 +402,15 @@ lay_face(solver *s, int32_t face)
     const int32_t first = level->face_first[face];
     const int32_t vertex = level->face_verts[first];
     const otx_vec2 start = {
-        s->sense[first] * vertex_phase(s, 0, vertex),
-        s->sense[first] * vertex_phase(s, 1, vertex)};
+        s->sense[first] * s->turn[0][vertex],
+        s->sense[first] * s->turn[1][vertex]};
     otx_vec2 at = start;
 
     for (int32_t i = first; i < level->face_first[face + 1]; ++i)
     {
         s->phase->cells[i] = at;
-        at.x += face_step(s, face, i, 0);
-        at.y += face_step(s, face, i, 1);
+        at.x += otx_phase_face_step(s, face, i, 0);
+        at.y += otx_phase_face_step(s, face, i, 1);
     }
     at = otx_vec2_sub(at, start);
     s->phase->defect[face] =
@@ -435,15 +418,12 @@ lay_face(solver *s, int32_t face)
 }
 
 /* Vertices around which the senses do not close, which are the field's
- * singularities of half a turn, spoil all faces around them. */
-static otx_status
-mark_singular(solver *s)
+ * singularities of half a turn. */
+static void
+find_singular(solver *s)
 {
     const otx_level *level = s->c->level;
-    uint8_t *singular = OTX_ZNEW(s->run->scratch, uint8_t, level->vert_count);
 
-    if (!singular)
-        return otx_fail_memory(s->run, "field");
     for (int32_t e = 0; e < level->edge_count; ++e)
     {
         const int32_t *faces = level->edge_faces + 2 * (size_t)e;
@@ -451,7 +431,7 @@ mark_singular(solver *s)
 
         if (!s->c->inner[e])
             continue;
-        edge_corners(s->c, e, at);
+        otx_phase_edge_corners(s->c, e, at);
         for (int k = 0; k < 2; ++k)
         {
             const int32_t v = level->face_verts[at[k]];
@@ -460,15 +440,22 @@ mark_singular(solver *s)
             while (level->face_verts[other] != v)
                 ++other;
             if (s->sense[at[k]] * s->phase->match[e] != s->sense[other])
-                singular[v] = 1;
+                s->singular[v] = 1;
         }
     }
+}
+
+/* They spoil all faces around them. */
+static void
+mark_singular(solver *s)
+{
+    const otx_level *level = s->c->level;
+
     for (int32_t f = 0; f < level->face_count; ++f)
         for (int32_t i = level->face_first[f]; i < level->face_first[f + 1];
              ++i)
-            if (singular[level->face_verts[i]] && !level->face_hole[f])
+            if (s->singular[level->face_verts[i]] && !level->face_hole[f])
                 s->phase->defect[f] = 1;
-    return OSDTEX_OK;
 }
 
 /* -- the whole ----------------------------------------------------------- */
@@ -485,16 +472,18 @@ allocate(solver *s)
     s->angles = OTX_NEW(scratch, double, level->face_count);
     s->sense = OTX_ZNEW(scratch, int8_t, level->corner_count);
     s->mass = OTX_ZNEW(scratch, double, level->vert_count);
+    s->singular = OTX_ZNEW(scratch, uint8_t, level->vert_count);
     for (int k = 0; k < 2; ++k)
     {
         s->wish[k] = OTX_NEW(scratch, double, level->edge_count);
         s->step[k] = OTX_NEW(scratch, double, level->edge_count);
         s->z[k] = OTX_NEW(scratch, double, 2 * (int64_t)level->vert_count);
-        if (!s->wish[k] || !s->step[k] || !s->z[k])
+        s->turn[k] = OTX_NEW(scratch, double, level->vert_count);
+        if (!s->wish[k] || !s->step[k] || !s->z[k] || !s->turn[k])
             return otx_fail_memory(s->run, "field");
     }
     if (!s->phase->match || !s->phase->cells || !s->phase->defect ||
-        !s->angles || !s->sense || !s->mass)
+        !s->angles || !s->sense || !s->mass || !s->singular)
         return otx_fail_memory(s->run, "field");
     return OSDTEX_OK;
 }
@@ -538,9 +527,13 @@ solve(solver *s)
             s->run, status, "field", OTX_NOWHERE,
             "the periodic coordinates have no solution: the surface has "
             "positions that are not finite");
+    find_singular(s);
+    if (s->request->cancel > 0.0)
+        OTX_TRY(otx_settle_cancel(s));
+    OTX_TRY(otx_settle_solve(s));
     for (int32_t f = 0; f < s->c->level->face_count; ++f)
         lay_face(s, f);
-    OTX_TRY(mark_singular(s));
+    mark_singular(s);
     for (int32_t f = 0; f < s->c->level->face_count; ++f)
         s->phase->defect_count += s->phase->defect[f];
     return otx_progress(s->run, "field", 1.0);

@@ -27,6 +27,8 @@ typedef struct otx_phase_request
     /* Cells per scene unit of the two coordinates, along the field's direction
      * and to the left of it. */
     otx_vec2 gradient[2];
+    /* Dislocations closer to their opposite are made to meet, scene units. */
+    double cancel;
 } otx_phase_request;
 
 typedef struct otx_phase
@@ -38,6 +40,7 @@ typedef struct otx_phase
     otx_vec2 *cells;
     uint8_t *defect; /* [face_count] 1: steps do not sum to zero */
     int32_t defect_count;
+    int32_t cancelled; /* dislocations that were made to vanish */
 } otx_phase;
 
 /* The level to solve on for cells of length `cell`, scene units: the coarsest

@@ -87,10 +87,12 @@ otx_refill_choose(otx_material *m, const otx_vec2 *cells, uint8_t *open)
     m->filled_share = filled / all;
     otx_note(
         m->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
-        "%d of %d faces hold a dislocation; %.1f %% of the area is farther "
+        "%d of %d faces hold a dislocation, %d have been cancelled; %.1f %% of "
+        "the area is farther "
         "than a cell from any, %.1f %% is covered by patches",
         (int)m->phase.defect_count, (int)m->connection.level->face_count,
-        100.0 * m->clean_share, 100.0 * m->filled_share);
+        (int)m->phase.cancelled, 100.0 * m->clean_share,
+        100.0 * m->filled_share);
     return OSDTEX_OK;
 }
 

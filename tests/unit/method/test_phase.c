@@ -4,9 +4,9 @@
 
 /* Coordinates of the whole surface along the field that `q` asks for. */
 static otx_phase
-solve(
+solve_with(
     otx_run *run, const field_surface *s, const otx_direction_request *q,
-    double cell)
+    double cell, double cancel)
 {
     const double *flat =
         OTX_ZNEW(run->arena, double, s->connection.level->vert_count);
@@ -14,7 +14,8 @@ solve(
     otx_phase_request request = {
         .field = field,
         .log_scale = flat,
-        .gradient = {{1.0 / cell, 0}, {0, 1.0 / cell}}};
+        .gradient = {{1.0 / cell, 0}, {0, 1.0 / cell}},
+        .cancel = cancel};
     double *distance;
     otx_phase phase;
 
@@ -26,6 +27,14 @@ solve(
         OSDTEX_OK);
     assert_int_equal(otx_phase_unwrap(run, &phase, distance), OSDTEX_OK);
     return phase;
+}
+
+static otx_phase
+solve(
+    otx_run *run, const field_surface *s, const otx_direction_request *q,
+    double cell)
+{
+    return solve_with(run, s, q, cell, 1.5 * cell);
 }
 
 /* On a plane the coordinates are the plane's, up to a shift. */
@@ -128,6 +137,26 @@ a_torus_has_few_defects(void **state)
     test_run_destroy(run);
 }
 
+/* Fewer dislocations, and what is left of them still sums to whole cells. */
+static void
+close_dislocations_vanish(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_cage_input in = field_torus(run, 16, 24);
+    const field_surface *s = field_from_input(run, &in, 2);
+    const otx_direction_request q = {
+        .symmetry = 1, .guide = {0.3, 1, 0.2}, .guide_length = 0.1};
+    const otx_phase apart = solve_with(run, s, &q, 0.25, 0.0);
+    const otx_phase met = solve_with(run, s, &q, 0.25, 0.5);
+
+    (void)state;
+    assert_true(apart.defect_count > 0);
+    assert_int_equal(apart.cancelled, 0);
+    assert_true(met.cancelled > 0);
+    assert_true(met.defect_count < apart.defect_count);
+    test_run_destroy(run);
+}
+
 static void
 the_same_for_any_number_of_threads(void **state)
 {
@@ -161,6 +190,7 @@ main(void)
         cmocka_unit_test(a_plane_gets_its_own_coordinates),
         cmocka_unit_test(neighbours_agree_up_to_whole_cells),
         cmocka_unit_test(a_torus_has_few_defects),
+        cmocka_unit_test(close_dislocations_vanish),
         cmocka_unit_test(the_same_for_any_number_of_threads),
     };
 
