@@ -41,7 +41,7 @@ const otx_option otx_hierarchical_options[] = {
      "random"},
     {"coarse", OTX_OPTION_INTEGER, FIELD(coarse), -1, 6, -1, NULL,
      "Halvings of the exemplar for the exhaustive search; -1 chooses about "
-     "128 texels (paper: 0)"},
+     "64 texels (paper: 0)"},
     {"keep", OTX_OPTION_INTEGER, FIELD(keep), 1, OTX_MATCH_MAX_KEEP, 16, NULL,
      "Matches of the coarse search that are refined at full resolution"},
     {"candidates", OTX_OPTION_INTEGER, FIELD(candidates), 1, 16, 1, NULL,
@@ -81,7 +81,7 @@ _Static_assert(
         OTX_HIERARCHICAL_OPTION_COUNT,
     "the header says how long the table is");
 
-/* Halvings that leave the shorter side at about 128 texels: the search there
+/* Halvings that leave the shorter side at about 64 texels: the search there
  * finds the same matches as at full resolution for a fraction of the time. */
 static int32_t
 coarse_levels(const otx_exemplar *exemplar)
@@ -91,7 +91,7 @@ coarse_levels(const otx_exemplar *exemplar)
                        : exemplar->match.height;
     int32_t levels = 0;
 
-    for (; side / 2 >= 112; side /= 2)
+    for (; side / 2 >= 56; side /= 2)
         ++levels;
     return levels;
 }
