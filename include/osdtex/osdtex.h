@@ -804,6 +804,12 @@ extern "C"
         double edge_cut;
         double inner_cut;
         double random_pair;
+        /* How far windows of 16 texels around vertices, and inside tiles, are
+         * from the nearest piece of the exemplar: median, relative to a random
+         * pair. Negative where they were not looked up: a set for one mesh has
+         * not the tiles for it, and pictures or tiles may be too small. */
+        double vertex_window;
+        double inner_window;
     } osdtex_tiles_info;
 
     /* Makes a tiled texture from `exemplar` and writes it as an EXR that

@@ -17,6 +17,14 @@ set_int(json_t *object, const char *key, int64_t value)
     json_object_set_new(object, key, json_integer((json_int_t)value));
 }
 
+/* Null where the file does not say. */
+static void
+set_figure(json_t *object, const char *key, double value)
+{
+    json_object_set_new(
+        object, key, value >= 0.0 ? json_real(value) : json_null());
+}
+
 /* One object for each mip level. */
 static otx_status
 add_levels(otx_run *run, const osdtex_mapping *mapping, json_t *list)
@@ -83,6 +91,9 @@ otx_tile_report_add(otx_run *run, const osdtex_mapping *mapping, json_t *root)
     set_int(tiles, "tile_size", layout->cell);
     set_int(tiles, "gutter", layout->gutter);
     set_int(tiles, "exact_levels", otx_tile_layout_exact_levels(layout));
+    set_figure(tiles, "inner_cut", layout->figures.inner_cut);
+    set_figure(tiles, "vertex_window", layout->figures.vertex_window);
+    set_figure(tiles, "inner_window", layout->figures.inner_window);
     json_object_set_new(tiles, "oriented", json_boolean(layout->oriented));
     OTX_TRY(add_use(run, mapping, tiles));
     return add_levels(run, mapping, levels);

@@ -110,8 +110,7 @@ write_set(
 
     OTX_TRY(otx_atomic_file_begin(run, run->scratch, &set));
     OTX_TRY(otx_texture_file_write(
-        run, set, path, exemplar, &made->linear, &made->layout,
-        made->random_pair > 0.0 ? made->inner_seam / made->random_pair : 0.0));
+        run, set, path, exemplar, &made->linear, &made->layout));
     return otx_atomic_file_commit(run, set, true);
 }
 
@@ -147,6 +146,8 @@ write_tiles(
             .edge_cut = made.strip_seam,
             .inner_cut = made.inner_seam,
             .random_pair = made.random_pair,
+            .vertex_window = made.layout.figures.vertex_window,
+            .inner_window = made.layout.figures.inner_window,
         };
     return OSDTEX_OK;
 }

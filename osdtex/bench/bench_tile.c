@@ -160,7 +160,7 @@ make_open(make_job *job)
     OTX_TRY(otx_texel_pool_create(
         &job->run, job->run.arena, &job->exemplar, 0, &job->pool));
     return otx_template_kit(
-        &job->run, &job->pool, &job->options, &job->layout, 0, &job->kit);
+        &job->run, &job->pool, NULL, &job->options, &job->layout, &job->kit);
 }
 
 /* Mean squared distance of a window to the bands of the sides in `sides`, by

@@ -182,6 +182,12 @@ say_done(otx_session *session, const job *j, const osdtex_tiles_info *info)
         j->output, info->tile_count, info->tile_size, info->width, info->height,
         info->random_pair > 0.0 ? info->inner_cut / info->random_pair : 0.0,
         otx_session_seconds(session));
+    if (info->vertex_window >= 0.0)
+        otx_session_say(
+            session,
+            "what is seen around vertices is %.2f of a random pair from the "
+            "picture, inside tiles %.2f",
+            info->vertex_window, info->inner_window);
 }
 
 /* The surface that --for names; *out stays NULL without. */

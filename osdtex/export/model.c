@@ -253,8 +253,8 @@ write_files(
         OTX_TRY(otx_atomic_file_begin(run, run->scratch, &set));
     if (!options->without_image)
         OTX_TRY(otx_texture_file_write(
-            run, set, names->exr, exemplar, &exemplar->linear, &exemplar->tiles,
-            -1.0));
+            run, set, names->exr, exemplar, &exemplar->linear,
+            &exemplar->tiles));
     OTX_TRY(write_mtl(run, set, names, &obj->materials));
     OTX_TRY(write_obj(run, set, names, obj, options));
     return options->set ? OSDTEX_OK : otx_atomic_file_commit(run, set, true);

@@ -10,8 +10,7 @@
  * coarser ones are flat along the rims of the tiles. */
 static otx_status
 describe_tiles(
-    otx_run *run, const otx_tile_layout *layout, double inner_cut,
-    otx_exr_options *options)
+    otx_run *run, const otx_tile_layout *layout, otx_exr_options *options)
 {
     otx_exr_attribute *list = OTX_ZNEW(run->scratch, otx_exr_attribute, 3);
     const char *text = otx_tile_layout_print(run->scratch, layout);
@@ -27,9 +26,9 @@ describe_tiles(
     list[2] = (otx_exr_attribute){
         .name = "osdtex:innerCut",
         .kind = OTX_EXR_REAL,
-        .real = (float)inner_cut};
+        .real = (float)layout->figures.inner_cut};
     options->attributes = list;
-    options->attribute_count = inner_cut < 0.0 ? 2 : 3;
+    options->attribute_count = layout->figures.inner_cut < 0.0 ? 2 : 3;
     return OSDTEX_OK;
 }
 
@@ -53,7 +52,7 @@ otx_status
 otx_texture_file_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const otx_exemplar *exemplar, const otx_image *image,
-    const otx_tile_layout *layout, double inner_cut)
+    const otx_tile_layout *layout)
 {
     otx_exr_options options = otx_exr_options_default();
 
@@ -66,7 +65,7 @@ otx_texture_file_write(
     options.interop_id = exemplar->interop_id;
     if (layout->cell > 0)
     {
-        OTX_TRY(describe_tiles(run, layout, inner_cut, &options));
+        OTX_TRY(describe_tiles(run, layout, &options));
         OTX_TRY(separate_levels(run, layout, image, &options));
     }
     else

@@ -10,13 +10,10 @@
  * keep them apart and the layout goes into the attribute osdtex:tiles; where
  * it does not (cell 0), the picture wraps as the exemplar does.
  *
- *   inner_cut  mean Lab distance along the cuts inside tiles relative to a
- *              random pair, for the header; negative: not known
- *
  * ARGUMENT, NUMERIC, IO, MEMORY. */
 otx_status otx_texture_file_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const otx_exemplar *exemplar, const otx_image *image,
-    const otx_tile_layout *layout, double inner_cut);
+    const otx_tile_layout *layout);
 
 #endif

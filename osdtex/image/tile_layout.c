@@ -187,14 +187,39 @@ enum
     ORIENTED,
     SOURCE,
     SEED,
+    INNER_CUT,
+    VERTEX_WINDOW,
+    INNER_WINDOW,
     NAMES,
     FIELD_COUNT
 };
 
-static const char *const FIELDS[FIELD_COUNT] = {
-    "boundaries", "corners",  "cell",         "gutter", "columns",
-    "rows",       "oriented", "source-width", "seed",   "names",
+enum
+{
+    FIGURE_UNIT = 10000,
+    FIGURE_MAX = 100
 };
+
+static const char *const FIELDS[FIELD_COUNT] = {
+    "boundaries",    "corners",      "cell",         "gutter", "columns",
+    "rows",          "oriented",     "source-width", "seed",   "inner-cut",
+    "vertex-window", "inner-window", "names",
+};
+
+/* Figures are stored as ten-thousandths and one, 0 where not known. */
+static uint64_t
+from_figure(double value)
+{
+    return value >= 0.0 && value < FIGURE_MAX
+               ? (uint64_t)(FIGURE_UNIT * value + 0.5) + 1
+               : 0;
+}
+
+static double
+to_figure(uint64_t stored)
+{
+    return stored == 0 ? -1.0 : (double)(stored - 1) / FIGURE_UNIT;
+}
 
 const char *
 otx_tile_layout_print(otx_arena *arena, const otx_tile_layout *l)
@@ -211,6 +236,9 @@ otx_tile_layout_print(otx_arena *arena, const otx_tile_layout *l)
         [ORIENTED] = l->oriented,
         [SOURCE] = (uint64_t)l->source_width,
         [SEED] = l->seed,
+        [INNER_CUT] = from_figure(l->figures.inner_cut),
+        [VERTEX_WINDOW] = from_figure(l->figures.vertex_window),
+        [INNER_WINDOW] = from_figure(l->figures.inner_window),
         [NAMES] = names,
     };
     char *text = OTX_NEW(arena, char, room);
@@ -284,6 +312,9 @@ in_range(const uint64_t *v)
            v[COLUMNS] <= OTX_TILE_LAYOUT_MAX_SIDE && v[ROWS] >= 1 &&
            v[ROWS] <= OTX_TILE_LAYOUT_MAX_SIDE && v[ORIENTED] <= 1 &&
            v[SOURCE] >= 1 && v[SOURCE] <= OTX_IMAGE_MAX_SIDE &&
+           v[INNER_CUT] <= FIGURE_UNIT * FIGURE_MAX &&
+           v[VERTEX_WINDOW] <= FIGURE_UNIT * FIGURE_MAX &&
+           v[INNER_WINDOW] <= FIGURE_UNIT * FIGURE_MAX &&
            v[NAMES] <= v[COLUMNS] * v[ROWS];
 }
 
@@ -334,6 +365,9 @@ otx_tile_layout_parse(
             .oriented = v[ORIENTED] == 1,
             .source_width = (int32_t)v[SOURCE],
             .seed = v[SEED],
+            .figures =
+                {to_figure(v[INNER_CUT]), to_figure(v[VERTEX_WINDOW]),
+                 to_figure(v[INNER_WINDOW])},
         };
     if (good && v[NAMES] > 0)
         OTX_TRY(read_names(run, &text, (int32_t)v[NAMES], out, &good));

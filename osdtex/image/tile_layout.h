@@ -23,6 +23,16 @@ enum
     OTX_TILE_LAYOUT_MAX_SIDE = 8192
 };
 
+/* What the maker of the tiles measured, as shares of the distance of a random
+ * pair of texels; negative: not known. */
+typedef struct otx_tile_figures
+{
+    double inner_cut;     /* along the cuts inside tiles */
+    double vertex_window; /* of what is seen around vertices from the nearest
+                           * piece of the exemplar, median */
+    double inner_window;  /* the same inside tiles */
+} otx_tile_figures;
+
 typedef struct otx_tile_layout
 {
     int32_t boundaries; /* kinds of edges, two sides each */
@@ -38,6 +48,7 @@ typedef struct otx_tile_layout
     int32_t name_count;
     const int32_t *names; /* [name_count] ascending: cell i shows the tile
                            * names[i]; NULL: it shows tile i */
+    otx_tile_figures figures;
 } otx_tile_layout;
 
 /* Types of the sides and corners of a tile. */

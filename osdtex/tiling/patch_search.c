@@ -150,6 +150,14 @@ describe_block(
     }
 }
 
+/* Described places from `first` to before `end`; none where the exemplar is too
+ * small. */
+static int32_t
+places(int32_t first, int32_t end)
+{
+    return end > first ? (end - first + STEP - 1) / STEP : 0;
+}
+
 otx_status
 otx_patch_search_create(
     otx_run *run, const otx_texel_pool *pool, int32_t size,
@@ -162,8 +170,8 @@ otx_patch_search_create(
         .pool = pool,
         .size = size,
         .bounds = *bounds,
-        .columns = (bounds->x1 - bounds->x0 + STEP - 1) / STEP,
-        .rows = (bounds->y1 - bounds->y0 + STEP - 1) / STEP,
+        .columns = places(bounds->x0, bounds->x1),
+        .rows = places(bounds->y0, bounds->y1),
         .turns_step = turns_step,
     };
     out->blocks = (out->columns + LANES - 1) / LANES;
@@ -292,10 +300,10 @@ shortlist(
 }
 
 /* Sum of squared distances, given up above `limit`; INFINITY too where the
- * window is what is there. */
+ * window is what is there, if that is not wanted. */
 static float
 compare(
-    const otx_patch_search *s, const otx_texel_map *picture,
+    const otx_patch_search *s, const otx_texel_map *picture, bool fresh,
     otx_texel_window window, float limit)
 {
     const int32_t size = s->size;
@@ -316,13 +324,15 @@ compare(
                    (a[1] - b[1]) * (a[1] - b[1]) +
                    (a[2] - b[2]) * (a[2] - b[2]);
         }
-    return sum <= limit && OWN_SHARE * own < size * size ? sum : INFINITY;
+    if (fresh && OWN_SHARE * own >= size * size)
+        return INFINITY;
+    return sum <= limit ? sum : INFINITY;
 }
 
 /* The best place within a step of the one described. */
 static candidate
 settle(
-    const otx_patch_search *s, const otx_texel_map *picture,
+    const otx_patch_search *s, const otx_texel_map *picture, bool fresh,
     otx_texel_window window, float limit)
 {
     candidate best = {INFINITY, window};
@@ -336,19 +346,23 @@ settle(
             if (x < s->bounds.x0 || y < s->bounds.y0 || x >= s->bounds.x1 ||
                 y >= s->bounds.y1)
                 continue;
-            error = compare(s, picture, w, fminf(limit, best.error));
+            error = compare(s, picture, fresh, w, fminf(limit, best.error));
             if (error < best.error)
                 best = (candidate){error, w};
         }
     return best;
 }
 
-int32_t
-otx_patch_search_find(
-    const otx_patch_search *search, const otx_texel_map *picture, int32_t count,
-    otx_texel_window *out)
+/* The `count` (at most SHORTLIST) windows most like `picture`, best first;
+ * returns how many there are.
+ *
+ *   fresh  leaves out what is there already */
+static int32_t
+find(
+    const otx_patch_search *search, const otx_texel_map *picture, bool fresh,
+    int32_t count, candidate *best)
 {
-    candidate list[SHORTLIST], best[SHORTLIST];
+    candidate list[SHORTLIST];
     int32_t listed = 0, found = 0;
     cells c;
 
@@ -362,12 +376,10 @@ otx_patch_search_find(
             shortlist(search, numbers, turns, list, &listed);
         turn_back(&c);
     }
-    if (count > SHORTLIST)
-        count = SHORTLIST;
     for (int32_t i = 0; i < listed; ++i)
     {
         const candidate at = settle(
-            search, picture, list[i].window,
+            search, picture, fresh, list[i].window,
             found == count ? best[count - 1].error : INFINITY);
         bool known = !(at.error < INFINITY);
 
@@ -376,7 +388,30 @@ otx_patch_search_find(
         if (!known)
             insert(best, &found, count, at);
     }
+    return found;
+}
+
+int32_t
+otx_patch_search_find(
+    const otx_patch_search *search, const otx_texel_map *picture, int32_t count,
+    otx_texel_window *out)
+{
+    candidate best[SHORTLIST];
+    const int32_t found = find(
+        search, picture, true, count < SHORTLIST ? count : SHORTLIST, best);
+
     for (int32_t i = 0; i < found; ++i)
         out[i] = best[i].window;
     return found;
+}
+
+double
+otx_patch_search_distance(
+    const otx_patch_search *search, const otx_texel_map *picture)
+{
+    const double area = (double)search->size * search->size;
+    candidate best;
+
+    return find(search, picture, false, 1, &best) == 1 ? sqrt(best.error / area)
+                                                       : INFINITY;
 }

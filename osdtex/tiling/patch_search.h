@@ -42,4 +42,9 @@ int32_t otx_patch_search_find(
     const otx_patch_search *search, const otx_texel_map *picture, int32_t count,
     otx_texel_window *out);
 
+/* How far `picture` is from what looks most like it, wherever that is: root of
+ * the mean squared Lab distance. 0 for a piece of the exemplar. */
+double otx_patch_search_distance(
+    const otx_patch_search *search, const otx_texel_map *picture);
+
 #endif

@@ -11,6 +11,7 @@ enum
     CORNER_CANDIDATES = 256,
     EDGE_CANDIDATES = 64,
     SHARE = 2,
+    FINALISTS = 24,
     MARGIN = 4, /* texels around a corner's core that are looked at too */
     CORNER_STAGE = 0x7469c002,
     EDGE_STAGE = 0x7469c003
@@ -99,6 +100,7 @@ typedef struct contest
     const otx_run *run;
     const otx_texel_pool *pool;
     const otx_frame_kit *kit;
+    const otx_patch_search *looks; /* of corners, or NULL */
     look whole;
     uint64_t element; /* of the random numbers */
     int32_t turns, turns_step;
@@ -192,23 +194,73 @@ compare_reals(const void *a, const void *b)
     return p < q ? -1 : p > q;
 }
 
-/* A cut is cheapest where there is nothing to see. So only the most typical
- * candidates count, one in SHARE, and among them the cheapest wins. */
+/* The oddness of the last that counts. */
 static otx_status
-judge(otx_run *run, const contest *c, int32_t count, otx_texel_window *winner)
+find_limit(otx_run *run, const contest *c, int32_t count, double *out)
 {
     double *sorted = OTX_NEW(run->scratch, double, count);
-    int32_t best = -1;
 
     if (!sorted)
         return otx_fail_memory(run, STAGE);
     memcpy(sorted, c->oddness, (size_t)count * sizeof *sorted);
     qsort(sorted, (size_t)count, sizeof *sorted, compare_reals);
-    for (int32_t i = 0; i < count; ++i)
-        if (c->oddness[i] <= sorted[count / SHARE] &&
-            (best < 0 || c->costs[i] < c->costs[best]))
-            best = i;
-    *winner = c->windows[best];
+    *out = sorted[count / SHARE];
+    return OSDTEX_OK;
+}
+
+/* How far the middle of a corner is from anything in the exemplar. */
+static otx_status
+look_up(
+    otx_run *run, const contest *c, otx_texel_window window, double *distance)
+{
+    const int32_t size = c->looks->size, sew = c->kit->sizes.sew;
+    otx_run own = *run;
+    otx_corner corner;
+    otx_texel_map middle;
+
+    own.arena = run->scratch;
+    OTX_TRY(otx_corner_build(&own, c->pool, window, sew, &corner));
+    OTX_TRY(otx_texel_map_create(run, run->scratch, size, size, &middle));
+    for (int32_t y = 0; y < size; ++y)
+        for (int32_t x = 0; x < size; ++x)
+            middle.texels[y * size + x] =
+                otx_corner_texel(&corner, x - size / 2, y - size / 2);
+    *distance = otx_patch_search_distance(c->looks, &middle);
+    return OSDTEX_OK;
+}
+
+/* A cut is cheapest where there is nothing to see. So only the most typical
+ * candidates count, one in SHARE, and among them the cheapest wins. Corners may
+ * be cheap and still look like nothing in the exemplar, such as four dark spots
+ * in a square: of the cheapest FINALISTS, the one wins that is most like a
+ * piece of it. */
+static otx_status
+judge(otx_run *run, contest *c, int32_t count, otx_texel_window *winner)
+{
+    const int32_t finalists = c->looks ? FINALISTS : 1;
+    double limit = 0.0, nearest = INFINITY;
+
+    OTX_TRY(find_limit(run, c, count, &limit));
+    for (int32_t k = 0; k < finalists; ++k)
+    {
+        double distance = 0.0;
+        int32_t best = -1;
+
+        for (int32_t i = 0; i < count; ++i)
+            if (c->oddness[i] <= limit &&
+                (best < 0 || c->costs[i] < c->costs[best]))
+                best = i;
+        if (best < 0)
+            break;
+        c->oddness[best] = INFINITY;
+        if (c->looks)
+            OTX_TRY(look_up(run, c, c->windows[best], &distance));
+        if (k == 0 || distance < nearest)
+        {
+            nearest = distance;
+            *winner = c->windows[best];
+        }
+    }
     return OSDTEX_OK;
 }
 
@@ -234,12 +286,12 @@ hold(
 
 static otx_status
 build_corners(
-    otx_run *run, const otx_texel_pool *pool,
-    const otx_tileset_options *options, contest *c, int32_t attempt,
-    otx_frame_kit *kit)
+    otx_run *run, const otx_texel_pool *pool, const otx_patch_search *looks,
+    const otx_tileset_options *options, contest *c, otx_frame_kit *kit)
 {
     const int32_t sew = kit->sizes.sew;
 
+    c->looks = looks && looks->size <= 2 * sew ? looks : NULL;
     for (int32_t i = 0; i < kit->corner_count; ++i)
     {
         otx_texel_window window;
@@ -250,11 +302,12 @@ build_corners(
                 (int32_t)floor(options->corner.y + 0.5) - sew, 0};
         else
         {
-            c->element = (uint64_t)(attempt * kit->corner_count + i);
+            c->element = (uint64_t)i;
             OTX_TRY(hold(run, c, CORNER_CANDIDATES, try_corner, &window));
         }
         OTX_TRY(otx_corner_build(run, pool, window, sew, &kit->corners[i]));
     }
+    c->looks = NULL;
     return OSDTEX_OK;
 }
 
@@ -262,7 +315,7 @@ build_corners(
 static otx_status
 choose_edge(
     otx_run *run, otx_texel_pool *pool, const otx_tileset_options *options,
-    const otx_tile_layout *layout, contest *c, int32_t attempt, int32_t k,
+    const otx_tile_layout *layout, contest *c, int32_t k,
     const otx_frame_kit *kit, otx_texel_map *edge)
 {
     const bool upright = layout->oriented && k >= kit->boundary_count / 2;
@@ -281,7 +334,7 @@ choose_edge(
      * tile's right side. */
     c->turns = upright ? 3 : 0;
     c->turns_step = layout->oriented ? 0 : 1;
-    c->element = (uint64_t)(attempt * kit->boundary_count + k);
+    c->element = (uint64_t)k;
     OTX_TRY(hold(run, c, EDGE_CANDIDATES, try_edge, &window));
     otx_texel_pool_lay(pool, window, edge);
     return OSDTEX_OK;
@@ -290,8 +343,7 @@ choose_edge(
 static otx_status
 build_strips(
     otx_run *run, otx_texel_pool *pool, const otx_tileset_options *options,
-    const otx_tile_layout *layout, contest *c, int32_t attempt,
-    otx_frame_kit *kit)
+    const otx_tile_layout *layout, contest *c, otx_frame_kit *kit)
 {
     const otx_strip_sizes *s = &kit->sizes;
     const int32_t v = kit->corner_count;
@@ -302,8 +354,7 @@ build_strips(
 
         OTX_TRY(otx_texel_map_create(
             run, run->arena, s->side, 2 * s->reach, &edge));
-        OTX_TRY(
-            choose_edge(run, pool, options, layout, c, attempt, k, kit, &edge));
+        OTX_TRY(choose_edge(run, pool, options, layout, c, k, kit, &edge));
         for (int32_t i = 0; i < v * v; ++i)
             OTX_TRY(otx_strip_build(
                 run, pool, s, &edge, &kit->corners[i / v], &kit->corners[i % v],
@@ -314,8 +365,9 @@ build_strips(
 
 otx_status
 otx_template_kit(
-    otx_run *run, otx_texel_pool *pool, const otx_tileset_options *options,
-    const otx_tile_layout *layout, int32_t attempt, otx_frame_kit *kit)
+    otx_run *run, otx_texel_pool *pool, const otx_patch_search *looks,
+    const otx_tileset_options *options, const otx_tile_layout *layout,
+    otx_frame_kit *kit)
 {
     const int32_t v = kit->corner_count;
     contest c = {.pool = pool, .kit = kit};
@@ -325,6 +377,6 @@ otx_template_kit(
     if (!kit->corners || !kit->strips)
         return otx_fail_memory(run, STAGE);
     OTX_TRY(look_around(run, pool, &c.whole));
-    OTX_TRY(build_corners(run, pool, options, &c, attempt, kit));
-    return build_strips(run, pool, options, layout, &c, attempt, kit);
+    OTX_TRY(build_corners(run, pool, looks, options, &c, kit));
+    return build_strips(run, pool, options, layout, &c, kit);
 }

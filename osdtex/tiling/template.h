@@ -6,6 +6,7 @@
 #ifndef OTX_TILING_TEMPLATE_H
 #define OTX_TILING_TEMPLATE_H
 
+#include "tiling/patch_search.h"
 #include "tiling/tileset.h"
 
 /* Texels that otx_template_kit adds to the pool. */
@@ -15,9 +16,10 @@ int32_t otx_template_extra(
 /* Builds corners and strips of a set in run->arena. kit->sizes and the counts
  * are given.
  *
- *   attempt  another number, other candidates */
+ *   looks  where corners are looked up; NULL: their cuts decide alone */
 otx_status otx_template_kit(
-    otx_run *run, otx_texel_pool *pool, const otx_tileset_options *options,
-    const otx_tile_layout *layout, int32_t attempt, otx_frame_kit *kit);
+    otx_run *run, otx_texel_pool *pool, const otx_patch_search *looks,
+    const otx_tileset_options *options, const otx_tile_layout *layout,
+    otx_frame_kit *kit);
 
 #endif

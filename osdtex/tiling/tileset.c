@@ -1,6 +1,7 @@
 /* tileset.c -- from options to a picture of tiles. */
 #include "tiling/tileset.h"
 #include "tiling/template.h"
+#include "tiling/vertex_check.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,6 +11,7 @@ enum
     DEFAULT_CELL = 128,
     PIECE = 8,  /* tiles between two looks at the clock */
     PATCH = 24, /* texels on a side of the patches that mend seams */
+    LOOK = 16,  /* of the windows that are looked up in the exemplar */
     RAY = 2     /* texels beside a ray that a corner keeps, see corner.c */
 };
 
@@ -209,6 +211,17 @@ open_patches(
         run, pool, PATCH, &b, search->turns_step, out);
 }
 
+/* What vertices and insides are compared with: anything, turned any way. */
+static otx_status
+open_looks(otx_run *run, const otx_texel_pool *pool, otx_patch_search *out)
+{
+    const otx_patch_bounds all = {
+        0, 0, otx_texel_pool_places_x(pool, LOOK),
+        otx_texel_pool_places_y(pool, LOOK)};
+
+    return otx_patch_search_create(run, pool, LOOK, &all, 1, out);
+}
+
 typedef struct filler
 {
     const otx_run *run;
@@ -216,24 +229,36 @@ typedef struct filler
     const otx_patch_search *patches;
     const otx_texel_pool *pool;
     otx_tileset *set;
+    otx_texel_map texels;   /* of the whole picture */
     otx_quilt_seams *seams; /* [tile_count] */
     int32_t first;          /* tile of the piece at hand */
 } filler;
 
 static void
-copy_texels(
-    const otx_texel_pool *pool, const otx_texel_map *map, int32_t x0,
-    int32_t y0, otx_image *image)
+keep_texels(const otx_texel_map *tile, int32_t x, int32_t y, otx_texel_map *all)
 {
-    const size_t bytes = (size_t)pool->channels * sizeof(float);
+    const size_t width = (size_t)tile->width;
 
-    for (int32_t y = 0; y < map->height; ++y)
-        for (int32_t x = 0; x < map->width; ++x)
+    for (int32_t row = 0; row < tile->height; ++row)
+        memcpy(
+            all->texels + (size_t)(y + row) * (size_t)all->width + (size_t)x,
+            tile->texels + (size_t)row * width, width * sizeof *tile->texels);
+}
+
+/* Colours of the texels; cells without a tile stay 0. */
+static void
+paint(const otx_texel_pool *pool, const otx_texel_map *map, otx_image *image)
+{
+    const size_t channels = (size_t)pool->channels;
+    const size_t count = (size_t)map->width * (size_t)map->height;
+
+    memset(image->pixels, 0, count * channels * sizeof(float));
+    for (size_t i = 0; i < count; ++i)
+        if (map->texels[i] != OTX_TEXEL_NONE)
             memcpy(
-                otx_image_at(image, x0 + x, y0 + y),
-                pool->linear + (size_t)otx_texel_map_at(map, x, y) *
-                                   (size_t)pool->channels,
-                bytes);
+                image->pixels + i * channels,
+                pool->linear + (size_t)map->texels[i] * channels,
+                channels * sizeof(float));
 }
 
 static otx_status
@@ -256,7 +281,7 @@ fill_tile(void *context, int64_t index, otx_worker *worker)
         &run, f->search, &name, f->patches, &otx_tileset_interior, &map,
         &f->seams[cell]));
     otx_tile_layout_origin(layout, cell, &x, &y);
-    copy_texels(f->pool, &map, x, y, &f->set->linear);
+    keep_texels(&map, x, y, &f->texels);
     return OSDTEX_OK;
 }
 
@@ -298,21 +323,46 @@ sum_up(const otx_frame_kit *kit, const filler *f, otx_tileset *set)
     set->random_pair = f->pool->random_pair;
 }
 
+/* What goes into the header. */
+static otx_status
+judge(
+    otx_run *run, const otx_patch_search *looks, const filler *f,
+    otx_tileset *set)
+{
+    const double unit = set->random_pair > 0.0 ? 1.0 / set->random_pair : 0.0;
+    otx_vertex_figures seen;
+
+    OTX_TRY(otx_vertex_check(run, looks, &set->layout, &f->texels, &seen));
+    set->layout.figures = (otx_tile_figures){
+        .inner_cut = unit * set->inner_seam,
+        .vertex_window = seen.vertex < 0.0 ? -1.0 : unit * seen.vertex,
+        .inner_window = seen.inside < 0.0 ? -1.0 : unit * seen.inside,
+    };
+    return OSDTEX_OK;
+}
+
 static otx_status
 create_picture(otx_run *run, const otx_exemplar *exemplar, otx_tileset *set)
 {
     otx_tile_layout *layout = &set->layout;
-    size_t floats;
 
     OTX_TRY(otx_tile_layout_arrange(run, layout));
     set->tile_count =
         layout->names ? layout->name_count : layout->columns * layout->rows;
-    OTX_TRY(otx_image_create(
+    return otx_image_create(
         run, run->arena, layout->columns * layout->cell,
-        layout->rows * layout->cell, exemplar->linear.channels, &set->linear));
-    floats = (size_t)set->linear.width * (size_t)set->linear.height *
-             (size_t)set->linear.channels;
-    memset(set->linear.pixels, 0, floats * sizeof(float));
+        layout->rows * layout->cell, exemplar->linear.channels, &set->linear);
+}
+
+/* A picture of no texels as large as the set's. */
+static otx_status
+create_texels(otx_run *run, const otx_image *image, otx_texel_map *out)
+{
+    OTX_TRY(otx_texel_map_create(
+        run, run->arena, image->width, image->height, out));
+    memset(
+        out->texels, 0xff,
+        (size_t)out->width * (size_t)out->height * sizeof *out->texels);
     return OSDTEX_OK;
 }
 
@@ -342,7 +392,7 @@ otx_tileset_make(
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     otx_frame_kit kit = {0};
-    otx_patch_search patches;
+    otx_patch_search looks, patches;
     otx_ring_search search;
     otx_texel_pool pool;
     otx_run own = *run;
@@ -359,7 +409,8 @@ otx_tileset_make(
     OTX_TRY(otx_texel_pool_create(
         run, own.arena, exemplar, otx_template_extra(&kit.sizes, options),
         &pool));
-    OTX_TRY(otx_template_kit(&own, &pool, options, &out->layout, 0, &kit));
+    OTX_TRY(open_looks(&own, &pool, &looks));
+    OTX_TRY(otx_template_kit(&own, &pool, &looks, options, &out->layout, &kit));
     OTX_TRY(otx_ring_search_create(
         &own, &pool, &kit, &out->layout, &options->background, &search));
     OTX_TRY(open_patches(&own, &pool, &search, &patches));
@@ -373,8 +424,11 @@ otx_tileset_make(
     };
     if (!f.seams)
         return otx_fail_memory(run, STAGE);
+    OTX_TRY(create_texels(&own, &out->linear, &f.texels));
     OTX_TRY(fill_all(run, &f));
+    paint(&pool, &f.texels, &out->linear);
     sum_up(&kit, &f, out);
+    OTX_TRY(judge(run, &looks, &f, out));
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }

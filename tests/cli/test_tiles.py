@@ -30,6 +30,9 @@ class Tiles(ProgramTest):
         tiles = json.loads(report.read_text())["tiles"]
         self.assertEqual(tiles["count"], 16)
         self.assertEqual(tiles["edges_between_equals"], 0)
+        self.assertTrue(0 < tiles["inner_cut"] < 1)
+        self.assertTrue(0 < tiles["vertex_window"] < 1)
+        self.assertTrue(0 <= tiles["inner_window"] < 1)
         self.assertEqual(len(tiles["mismatch_by_mip_level"]), 8)
         for level in tiles["mismatch_by_mip_level"]:
             self.assertLessEqual(level["edge_max"], 1 / 1024)

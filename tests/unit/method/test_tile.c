@@ -74,7 +74,7 @@ make_tiles(fixture *f, const otx_tileset_options *options, uint64_t picture)
     assert_int_equal(otx_atomic_file_begin(run, run->arena, &set), OSDTEX_OK);
     assert_int_equal(
         otx_texture_file_write(
-            run, set, path, source, &made.linear, &made.layout, 0.0),
+            run, set, path, source, &made.linear, &made.layout),
         OSDTEX_OK);
     assert_int_equal(otx_atomic_file_commit(run, set, false), OSDTEX_OK);
     read = test_read(run, path);
