@@ -434,6 +434,16 @@ extern "C"
         OSDTEX_WRAP_YES = 2
     };
 
+    /* What becomes of a picture that does not tile. */
+    typedef int32_t osdtex_tileable;
+    enum
+    {
+        OSDTEX_TILEABLE_AUTO = 0, /* made to, where that is judged good */
+        OSDTEX_TILEABLE_KEEP = 1, /* stays; patches keep inside it */
+        OSDTEX_TILEABLE_MAKE = 2  /* made to: windows of the picture are sewn
+                                   * over the line where its borders meet */
+    };
+
     typedef struct osdtex_exemplar_options
     {
         size_t size;
@@ -443,6 +453,8 @@ extern "C"
         const char *match_space; /* in which colours are compared */
         osdtex_embedding embedding;
         osdtex_wrap wrap;
+        osdtex_tileable tileable;
+        int32_t reserved;
     } osdtex_exemplar_options;
 
     static inline osdtex_exemplar_options osdtex_exemplar_options_default(void)
@@ -453,7 +465,9 @@ extern "C"
             NULL,
             NULL,
             OSDTEX_EMBEDDING_HSV_CONE,
-            OSDTEX_WRAP_AUTO};
+            OSDTEX_WRAP_AUTO,
+            OSDTEX_TILEABLE_AUTO,
+            0};
 
         return options;
     }
@@ -472,11 +486,11 @@ extern "C"
         int32_t channels; /* of `pixels`: 3 or 4 */
         int32_t wrap_x;   /* 1: tiles left to right */
         int32_t wrap_y;
-        int32_t reserved;
-        const float *pixels;  /* in linear_space, bottom row first */
-        int32_t source_width; /* of the picture whose width a scale means:
-                               * this one, or the one tiles were made of */
-        int32_t tile_size;    /* texels; 0: this is no tiled texture */
+        int32_t made_tileable; /* 1: the pixels are not those of the file */
+        const float *pixels;   /* in linear_space, bottom row first */
+        int32_t source_width;  /* of the picture whose width a scale means:
+                                * this one, or the one tiles were made of */
+        int32_t tile_size;     /* texels; 0: this is no tiled texture */
     } osdtex_exemplar_info;
 
     /* Reads EXR, PNG, TIFF or JPEG, told by content. FORMAT, SUPPORT, LIMIT,

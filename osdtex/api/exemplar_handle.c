@@ -3,6 +3,7 @@
 #include "api/handle.h"
 #include "base/hash.h"
 #include "file/picture.h"
+#include "tiling/toroid.h"
 
 #include <math.h>
 #include <string.h>
@@ -48,11 +49,50 @@ check_options(
     *ours = osdtex_exemplar_options_default();
     OTX_TRY(otx_call_options(run, ours, sizeof *ours, theirs));
     if (ours->embedding < 0 || ours->embedding >= OTX_EMBEDDING_COUNT ||
-        ours->wrap < OSDTEX_WRAP_AUTO || ours->wrap > OSDTEX_WRAP_YES)
+        ours->wrap < OSDTEX_WRAP_AUTO || ours->wrap > OSDTEX_WRAP_YES ||
+        ours->tileable < OSDTEX_TILEABLE_AUTO ||
+        ours->tileable > OSDTEX_TILEABLE_MAKE)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "colour", OTX_NOWHERE,
-            "embedding or wrap is none of the values of osdtex.h");
+            "embedding, wrap or tileable is none of the values of osdtex.h");
     return OSDTEX_OK;
+}
+
+/* Up to which cuts are taken not to show; see docs/notes/toroid.md for the
+ * pictures that it was set on. */
+static const double oddness_max = 1.1;
+
+/* Makes a picture tile that does not, where it is asked for or good. */
+static otx_status
+make_tileable(otx_run *run, osdtex_tileable how, osdtex_exemplar *handle)
+{
+    const otx_exemplar source = handle->exemplar;
+    const otx_where where = {source.source_path, 0, -1, -1};
+    otx_toroid toroid;
+    bool good;
+
+    if (how == OSDTEX_TILEABLE_KEEP || (source.wrap_x && source.wrap_y))
+        return OSDTEX_OK;
+    if (how == OSDTEX_TILEABLE_AUTO &&
+        (source.lab.width < OTX_TOROID_MIN_SIDE ||
+         source.lab.height < OTX_TOROID_MIN_SIDE))
+        return OSDTEX_OK;
+    OTX_TRY(otx_toroid_make(run, &source, &toroid));
+    good = toroid.oddness <= oddness_max;
+    otx_note(
+        run, OSDTEX_SEVERITY_INFO, "exemplar", where,
+        "%s (oddness of what is across its cuts %.2f, good up to %.2f)",
+        good                          ? "the picture is made to tile"
+        : how == OSDTEX_TILEABLE_AUTO ? "the picture is kept as it is: made to "
+                                        "tile, its cuts would show"
+                                      : "the picture is made to tile, as asked "
+                                        "for, though its cuts show",
+        toroid.oddness, oddness_max);
+    if (!good && how == OSDTEX_TILEABLE_AUTO)
+        return OSDTEX_OK;
+    handle->info.made_tileable = 1;
+    return otx_exemplar_rearrange(
+        run, &source, toroid.map.texels, &handle->exemplar);
 }
 
 /* Builds the handle. `input` holds what is known of the pixels. */
@@ -65,6 +105,7 @@ build(
     otx_run *run = &call->run;
     osdtex_exemplar *handle = OTX_ZNEW(run->arena, osdtex_exemplar, 1);
     const otx_colour *colour;
+    int32_t made;
 
     if (!handle)
         return otx_fail_memory(run, "colour");
@@ -75,7 +116,13 @@ build(
     input->wrap = (otx_exemplar_wrap)options->wrap;
     handle->arena = run->arena;
     OTX_TRY(otx_exemplar_build(run, colour, input, &handle->exemplar));
+    /* Who says that it does not tile wants it so. */
+    if (options->wrap != OSDTEX_WRAP_NO ||
+        options->tileable == OSDTEX_TILEABLE_MAKE)
+        OTX_TRY(make_tileable(run, options->tileable, handle));
+    made = handle->info.made_tileable;
     handle->info = info_of(&handle->exemplar, type);
+    handle->info.made_tileable = made;
     *out = handle;
     return OSDTEX_OK;
 }
@@ -139,7 +186,10 @@ read_exemplar(
         input.source.chromaticities, picture.chromaticities,
         sizeof picture.chromaticities);
     if (picture.tiles)
+    {
         ours.wrap = OSDTEX_WRAP_NO;
+        ours.tileable = OSDTEX_TILEABLE_KEEP;
+    }
     OTX_TRY(build(call, &input, &ours, type_of(&picture), out));
     return picture.tiles ? keep_tiles(&call->run, path, picture.tiles, *out)
                          : OSDTEX_OK;

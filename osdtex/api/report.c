@@ -187,6 +187,7 @@ put_colour(
     set_text(colour, "embedding", info->embedding);
     set(colour, "wrap_x", json_boolean(info->wrap_x));
     set(colour, "wrap_y", json_boolean(info->wrap_y));
+    set(colour, "made_tileable", json_boolean(info->made_tileable));
     for (int32_t i = 0; i < osdtex_diagnostic_count(context); ++i)
     {
         osdtex_diagnostic_get(context, i, &d);

@@ -155,6 +155,11 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_WRAP] =
         {"wrap", 0, OTX_FLAG_GROUP_COLOUR, "auto|no|yes",
          "whether the exemplar tiles (default auto: tested, for each axis)"},
+    [OTX_FLAG_TILEABLE] =
+        {"tileable", 0, OTX_FLAG_GROUP_COLOUR, "auto|keep|make",
+         "what to do with an exemplar that does not tile: keep it, and stay "
+         "inside it; make it tile by cuts, which gives patches more places to "
+         "come from (default auto: make it, where that is judged good)"},
     [OTX_FLAG_COLORCONFIG] =
         {"colorconfig", 0, OTX_FLAG_GROUP_COLOUR, "FILE",
          "OpenColorIO configuration (default: $OCIO, else a built-in one)"},

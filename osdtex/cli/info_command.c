@@ -94,7 +94,9 @@ print_exemplar(const osdtex_exemplar_info *e)
         "  colours     from '%s' to '%s', compared in '%s' (%s)\n",
         e->source_space, e->linear_space,
         e->match_space ? e->match_space : "the sRGB curve", e->embedding);
-    printf("  tiles       %s\n", tiles[e->wrap_x != 0][e->wrap_y != 0]);
+    printf(
+        "  tiles       %s%s\n", tiles[e->wrap_x != 0][e->wrap_y != 0],
+        e->made_tileable ? ", once made to" : "");
 }
 
 static void

@@ -9,6 +9,7 @@ static const char *const fvars[] = {
     "none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"};
 static const char *const embeddings[] = {"hsv", "hsv-cylinder", "lab", "rgb"};
 static const char *const wraps[] = {"auto", "no", "yes"};
+static const char *const tileables[] = {"auto", "keep", "make"};
 
 const char *
 otx_inputs_scheme_name(osdtex_scheme scheme)
@@ -67,5 +68,6 @@ otx_inputs_exemplar(const otx_flag_values *values, osdtex_exemplar_options *out)
     out->to = values->text[OTX_FLAG_TO];
     out->match_space = values->text[OTX_FLAG_MATCH_SPACE];
     return choose(values, OTX_FLAG_MATCH_IN, embeddings, 4, &out->embedding) &&
-           choose(values, OTX_FLAG_WRAP, wraps, 3, &out->wrap);
+           choose(values, OTX_FLAG_WRAP, wraps, 3, &out->wrap) &&
+           choose(values, OTX_FLAG_TILEABLE, tileables, 3, &out->tileable);
 }

@@ -167,8 +167,11 @@ parse(job *j, const otx_flag_values *values)
         otx_session_refuse("osdtex tiles writes an EXR: -o DIR/NAME.exr");
         return false;
     }
-    return otx_inputs_exemplar(values, &j->exemplar_options) &&
-           otx_inputs_cage(values, &j->cage_options) && parse_numbers(j) &&
+    if (!otx_inputs_exemplar(values, &j->exemplar_options))
+        return false;
+    /* Tiles have cuts of their own. */
+    j->exemplar_options.tileable = OSDTEX_TILEABLE_KEEP;
+    return otx_inputs_cage(values, &j->cage_options) && parse_numbers(j) &&
            parse_edges(j) && parse_places(j) && parse_mesh(j);
 }
 

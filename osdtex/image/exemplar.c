@@ -311,15 +311,17 @@ survey_row(void *context, int64_t y, otx_worker *worker)
 
 /* sigma = sqrt(2 Var): the RMS distance of two texels drawn at random. */
 static otx_status
-measure(build *b, const otx_image *image, double *sigma, double *step)
+measure(
+    otx_run *run, row_result *rows, const otx_image *image, double *sigma,
+    double *step)
 {
-    survey s = {image, b->rows};
+    survey s = {image, rows};
     row_result all = {0};
     const double width = image->width;
     const double height = image->height;
     const double texels = width * height;
 
-    OTX_TRY(otx_pool_for(b->run->pool, image->height, survey_row, &s));
+    OTX_TRY(otx_pool_for(run->pool, image->height, survey_row, &s));
     for (int32_t y = 0; y < image->height; ++y)
     {
         for (int k = 0; k < 3; ++k)
@@ -336,6 +338,13 @@ measure(build *b, const otx_image *image, double *sigma, double *step)
     *step =
         sqrt(all.step_sq / ((width - 1.0) * height + width * (height - 1.0)));
     return OSDTEX_OK;
+}
+
+static otx_status
+measure_both(otx_run *run, row_result *rows, otx_exemplar *e)
+{
+    OTX_TRY(measure(run, rows, &e->match, &e->match_sigma, &e->match_step));
+    return measure(run, rows, &e->lab, &e->lab_sigma, &e->lab_step);
 }
 
 /* ---- decisions ---- */
@@ -469,8 +478,7 @@ build_all(build *b)
     OTX_TRY(otx_progress(b->run, stage, 0.4));
     OTX_TRY(build_views(b));
     OTX_TRY(otx_progress(b->run, stage, 0.8));
-    OTX_TRY(measure(b, &out->match, &out->match_sigma, &out->match_step));
-    OTX_TRY(measure(b, &out->lab, &out->lab_sigma, &out->lab_step));
+    OTX_TRY(measure_both(b->run, b->rows, out));
     OTX_TRY(resolve_wrap(b));
     OTX_TRY(record(b));
     return otx_progress(b->run, stage, 1.0);
@@ -493,4 +501,42 @@ otx_exemplar_build(
     if (status != OSDTEX_OK)
         *out = (otx_exemplar){0};
     return status;
+}
+
+static otx_status
+rearrange(
+    otx_run *run, const otx_image *from, const int32_t *texels, otx_image *out)
+{
+    const size_t count = (size_t)from->width * (size_t)from->height;
+    const size_t channels = (size_t)from->channels;
+
+    OTX_TRY(otx_image_create(
+        run, run->arena, from->width, from->height, from->channels, out));
+    for (size_t i = 0; i < count; ++i)
+        memcpy(
+            out->pixels + i * channels,
+            from->pixels + (size_t)texels[i] * channels,
+            channels * sizeof *out->pixels);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_exemplar_rearrange(
+    otx_run *run, const otx_exemplar *from, const int32_t *texels,
+    otx_exemplar *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    row_result *rows = OTX_ZNEW(run->scratch, row_result, from->lab.height);
+    otx_exemplar made = *from;
+
+    if (!rows)
+        return otx_fail_memory(run, stage);
+    OTX_TRY(rearrange(run, &from->linear, texels, &made.linear));
+    OTX_TRY(rearrange(run, &from->match, texels, &made.match));
+    OTX_TRY(rearrange(run, &from->lab, texels, &made.lab));
+    OTX_TRY(measure_both(run, rows, &made));
+    made.wrap_x = made.wrap_y = true;
+    *out = made;
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
 }

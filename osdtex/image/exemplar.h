@@ -76,4 +76,10 @@ otx_status otx_exemplar_build(
     otx_run *run, const otx_colour *colour, const otx_exemplar_input *input,
     otx_exemplar *out);
 
+/* Arranges the texels of `from` anew, in run->arena: texel i of the result, of
+ * the same size, is texels[i] of it. It tiles in both axes. */
+otx_status otx_exemplar_rearrange(
+    otx_run *run, const otx_exemplar *from, const int32_t *texels,
+    otx_exemplar *out);
+
 #endif

@@ -51,6 +51,23 @@ class Jobs(ProgramTest):
         result = self.run_map(CAGE, EXEMPLAR, *QUICK, "-q")
         self.assertEqual(result.stderr, "")
 
+    def test_exemplar_that_is_made_to_tile(self):
+        report = self.folder / "out.json"
+        exemplar = EXEMPLARS / "stones_open.png"
+        textures = {}
+        for how in ("keep", "auto", "make"):
+            result = self.run_map(
+                CAGE, exemplar, *QUICK, "--tileable", how, "--json-report",
+                report)
+            self.assert_exit(result, 0)
+            colour = json.loads(report.read_text())["colour"]
+            self.assertEqual(colour["made_tileable"], how == "make")
+            self.assertEqual(colour["wrap_x"], how == "make")
+            textures[how] = (self.folder / "out.exr").read_bytes()
+            self.assertEqual("made to tile" in result.stderr, how != "keep")
+        self.assertEqual(textures["keep"], textures["auto"])
+        self.assertNotEqual(textures["keep"], textures["make"])
+
     def test_default_scale_is_said(self):
         result = self.run_map(CAGE, EXEMPLAR, "-n")
         self.assertIn("a fifth of the diagonal", result.stderr)
