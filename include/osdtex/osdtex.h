@@ -865,7 +865,9 @@ extern "C"
                            * "normals", "flat", "field", "singularities"; NULL:
                            * texture */
         const char *view; /* "three_quarter", "front", "back", "left", "right",
-                           * "top"; NULL: three_quarter */
+                           * "top"; "seam1" to "seam99": close to the places
+                           * where seams show, the worst first; NULL:
+                           * three_quarter */
         double turn;      /* of the view, radians about Y */
         /* Where the eye is instead of `view`; fov 0: not used. */
         double eye[3];

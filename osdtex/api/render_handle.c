@@ -5,6 +5,7 @@
 #include "api/image_handle.h"
 #include "base/near.h"
 #include "render/render.h"
+#include "render/worst_seam.h"
 
 static const char *
 show_name(const void *list, int32_t index)
@@ -35,9 +36,11 @@ no_such(otx_run *run, const char *what, const char *name, otx_near_name names)
 
 static otx_status
 options_of(
-    otx_run *run, const osdtex_render_options *ours, otx_camera *camera,
-    otx_render_options *out)
+    otx_run *run, const otx_scene *scene, const osdtex_render_options *ours,
+    otx_camera *camera, otx_render_options *out)
 {
+    const int32_t seam = ours->view ? otx_worst_seam_rank(ours->view) : 0;
+
     *out = otx_render_defaults();
     out->width = ours->width;
     out->height = ours->height;
@@ -47,8 +50,14 @@ options_of(
     out->turn = ours->turn;
     if (ours->show && !otx_render_show_find(ours->show, &out->show))
         return no_such(run, "picture to show", ours->show, show_name);
-    if (ours->view && !otx_camera_view_find(ours->view, &out->view))
+    if (seam == 0 && ours->view &&
+        !otx_camera_view_find(ours->view, &out->view))
         return no_such(run, "view", ours->view, view_name);
+    if (seam > 0 && ours->fov == 0.0)
+    {
+        OTX_TRY(otx_worst_seam_camera(run, scene, seam, camera));
+        out->camera = camera;
+    }
     if (ours->fov == 0.0)
         return OSDTEX_OK;
     *camera = (otx_camera){
@@ -75,7 +84,7 @@ render(
             run, OSDTEX_ERROR_ARGUMENT, "render", OTX_NOWHERE,
             "no model is given");
     OTX_TRY(otx_call_options(run, &ours, sizeof ours, options));
-    OTX_TRY(options_of(run, &ours, &camera, &how));
+    OTX_TRY(options_of(run, &model->scene, &ours, &camera, &how));
     if (model->guide &&
         (how.show == OTX_SHOW_FIELD || how.show == OTX_SHOW_SINGULARITIES))
     {

@@ -165,8 +165,9 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "OpenColorIO configuration (default: $OCIO, else a built-in one)"},
     [OTX_FLAG_CAMERA] =
         {"camera", 0, OTX_FLAG_GROUP_PICTURE, "NAME|X,Y,Z,TX,TY,TZ,FOV",
-         "three_quarter, front, back, left, right or top; or eye, target and "
-         "the picture's height in degrees (default three_quarter)"},
+         "three_quarter, front, back, left, right or top; seam1, seam2 ...: "
+         "close to where seams show, the worst first; or eye, target and the "
+         "picture's height in degrees (default three_quarter)"},
     [OTX_FLAG_TURN] =
         {"turn", 0, OTX_FLAG_GROUP_PICTURE, "DEGREES",
          "turn the named camera about the vertical"},

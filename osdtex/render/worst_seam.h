@@ -1,0 +1,26 @@
+/* worst_seam.h -- a close view of the place where seams show most. */
+#ifndef OTX_RENDER_WORST_SEAM_H
+#define OTX_RENDER_WORST_SEAM_H
+
+#include "render/camera.h"
+#include "render/scene.h"
+
+enum
+{
+    OTX_WORST_SEAM_MAX = 99
+};
+
+/* "seam1" to "seam99", the worst first; 0 for any other name. */
+int32_t otx_worst_seam_rank(const char *name);
+
+/* Looks at a place along its normal, from near enough that the picture is an
+ * eighth of the model wide.
+ *
+ *   rank  1 .. OTX_WORST_SEAM_MAX
+ *   out   where places run out, the last of them
+ *
+ * ARGUMENT when the model has no texture or no seam; MEMORY. */
+otx_status otx_worst_seam_camera(
+    otx_run *run, const otx_scene *scene, int32_t rank, otx_camera *out);
+
+#endif
