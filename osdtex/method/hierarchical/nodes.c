@@ -311,7 +311,7 @@ otx_nodes_is_flat(const otx_mapper *m, const otx_node *node)
            node->chart.worst <= 2.0 * m->settings.flatness;
 }
 
-/* Grows about four clusters inside one of several faces. */
+/* Grows about two clusters inside one of several faces. */
 static otx_status
 split_grown(otx_mapper *m, const otx_node *node, otx_cluster_list *out)
 {
@@ -319,7 +319,7 @@ split_grown(otx_mapper *m, const otx_node *node, otx_cluster_list *out)
 
     OTX_TRY(dual_of(m, node->cluster.level, &dual));
     return otx_cluster_grow(
-        m->run, dual, &node->cluster, 0.25 * node->cluster.area, 2, BEND, out);
+        m->run, dual, &node->cluster, 0.5 * node->cluster.area, 2, BEND, out);
 }
 
 otx_status

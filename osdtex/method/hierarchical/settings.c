@@ -29,9 +29,10 @@ const otx_option otx_hierarchical_options[] = {
     {"flatten", OTX_OPTION_CHOICE, FIELD(flatten), 0, 0, 0, FLATTEN,
      "joint: patch and collar as rigid as possible; recursive: the paper's "
      "barycentric control polygons; auto follows mode"},
-    {"flatness", OTX_OPTION_REAL, FIELD(flatness), 1, 4, 1.12, NULL,
+    {"flatness", OTX_OPTION_REAL, FIELD(flatness), 0, 4, 0, NULL,
      "RMS stretch above which a cluster is split before it is mapped, of "
-     "recursive flattening 1 + E_flat; 1 is isometric"},
+     "recursive flattening 1 + E_flat; 1 is isometric, 0 follows mode (best "
+     "1.2, paper 1.12)"},
     {"angles", OTX_OPTION_INTEGER, FIELD(angles), 1, 360, 19, NULL,
      "Orientations tried for each patch"},
     {"continuation", OTX_OPTION_CHOICE, FIELD(continuation), 0, 0, 0,
@@ -145,6 +146,11 @@ otx_hierarchical_resolve(
         s->guide = OTX_HIERARCHICAL_OFF;
     if (s->usage < 0.0)
         s->usage = paper ? 0.0 : 0.5;
+    /* The cut takes over the ends of a bent patch, relaxation evens it out: of
+     * eight pairs, 1.12 had a fifth more fits, and the same seams and stretch
+     * (1.0507 instead of 1.0516). */
+    if (s->flatness == 0.0)
+        s->flatness = paper ? 1.12 : 1.2;
     if (s->coarse < 0)
         s->coarse = paper ? 0 : coarse_levels(exemplar);
     if (s->patch == 0.0)
