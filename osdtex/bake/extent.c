@@ -1,4 +1,4 @@
-/* extent.c -- root mean squares of the two derivatives over a face. */
+/* extent.c -- means of the two derivatives over a face. */
 #include "bake/extent.h"
 
 #include "bake/spread.h"
@@ -25,9 +25,10 @@ otx_extent_corner(int32_t n, int32_t k)
 /* Sums over the triangles of a face. */
 typedef struct sums
 {
-    double area;     /* on the surface */
-    double share;    /* of the unit square */
-    double along[2]; /* squared derivatives by x and y, times the share */
+    double area;       /* on the surface */
+    double share;      /* of the unit square */
+    double squares[2]; /* of the derivatives by x and y, times the share */
+    double eighths[2]; /* their eighth powers, likewise */
 } sums;
 
 static void
@@ -57,11 +58,34 @@ add_triangle(
 
     const otx_vec3 dx = otx_vec3_mix(q2.y / area2, p1, -q1.y / area2, p2);
     const otx_vec3 dy = otx_vec3_mix(-q2.x / area2, p1, q1.x / area2, p2);
+    const double sq[2] = {otx_vec3_dot(dx, dx), otx_vec3_dot(dy, dy)};
     const double share = 0.5 * fabs(area2);
 
     s->share += share;
-    s->along[0] += share * otx_vec3_dot(dx, dx);
-    s->along[1] += share * otx_vec3_dot(dy, dy);
+    for (int i = 0; i < 2; ++i)
+    {
+        s->squares[i] += share * sq[i];
+        s->eighths[i] += share * sq[i] * sq[i] * sq[i] * sq[i];
+    }
+}
+
+/* The eighth-power means, shrunk where the axes are not at right angles and the
+ * area is less than their product. The eighth power is near the largest: beside
+ * a vertex of high valence some leaves are several times as large as the
+ * others, and they are to get their texels, too. */
+static void
+set_extent(const sums *s, double out[2])
+{
+    const double product = sqrt(s->squares[0]) * sqrt(s->squares[1]);
+    /* Written so that NaN, of a face without extent, shrinks nothing. */
+    const double shrink = product > 0.0 ? sqrt(s->area / product) : 1.0;
+
+    for (int i = 0; i < 2; ++i)
+        out[i] = s->share > 0.0
+                     ? shrink * sqrt(sqrt(sqrt(s->eighths[i] / s->share)))
+                     : 0.0;
+    out[0] = fmax(out[0], out[1] / LONGEST);
+    out[1] = fmax(out[1], out[0] / LONGEST);
 }
 
 static void
@@ -80,15 +104,7 @@ measure_face(
                 surface, uvs, (const int32_t[]){leaf->face_first[f], c - 1, c},
                 &s);
 
-    const double ratio = sqrt(s.along[0] / s.along[1]);
-    const double root = s.share > 0.0 ? sqrt(s.area / s.share) : 0.0;
-    /* Written so that NaN, of a face without extent, gives a square. */
-    const double longer = ratio > 0.0 && ratio < INFINITY
-                              ? fmin(fmax(ratio, 1.0 / LONGEST), LONGEST)
-                              : 1.0;
-
-    out[0] = root * sqrt(longer);
-    out[1] = root / sqrt(longer);
+    set_extent(&s, out);
 }
 
 static otx_status

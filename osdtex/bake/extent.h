@@ -3,9 +3,9 @@
  * The corners of a face have fixed places in the unit square: a quad fills it,
  * a triangle takes half of it, others are regular. What the face measures
  * along the two axes of that square, on the limit surface, are the block's
- * proportions: long faces get long blocks, so that texels are about square on
- * the surface. Its area is such that the part of it that shows is as large as
- * the face. */
+ * sides: long faces get long blocks, so that texels are about square on the
+ * surface, and the part of a block that shows has the texels of the face's
+ * area, or more of them where the face's leaves are of uneven size. */
 #ifndef OTX_BAKE_EXTENT_H
 #define OTX_BAKE_EXTENT_H
 
