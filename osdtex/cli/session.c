@@ -36,8 +36,10 @@ listen_to_signals(void)
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-    /* A closed pipe is an error of the write, not a death. */
+    /* A closed pipe and a file too large (ulimit -f) are errors of the write,
+     * not deaths that leave half a file. */
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
 }
 
 bool

@@ -8,7 +8,7 @@
 
 #include "image/pyramid.h"
 
-#include <math.h>
+#include <errno.h>
 #include <openexr.h>
 #include <stdio.h>
 #include <string.h>
@@ -59,17 +59,31 @@ on_error(exr_const_context_t file, exr_result_t code, const char *message)
     (void)message;
 }
 
+/* Whether the system says that there is no room. The core gives no reason, but
+ * its last call was the write that failed. */
+static bool
+is_full(int error)
+{
+    return error == ENOSPC || error == EDQUOT || error == EFBIG;
+}
+
 static otx_status
 check(const otx_exr_writer *w, exr_result_t code)
 {
+    const int error = errno;
+
     if (code == EXR_ERR_SUCCESS)
         return OSDTEX_OK;
     if (code == EXR_ERR_OUT_OF_MEMORY)
         return otx_fail_memory(w->run, "picture");
+    if (is_full(error))
+        return otx_fail(
+            w->run, OSDTEX_ERROR_IO, "picture", where_of(w->path),
+            "the disk is full (%s); make room or choose another folder",
+            strerror(error));
     return otx_fail(
         w->run, OSDTEX_ERROR_IO, "picture", where_of(w->path),
-        "the EXR cannot be written (%s); is the disk full?",
-        exr_get_default_error_message(code));
+        "the EXR cannot be written (%s)", exr_get_default_error_message(code));
 }
 
 static void
