@@ -702,7 +702,9 @@ extern "C"
         int32_t preview_png;    /* 1: also NAME.<UDIM>.png, at most 1024 texels
                                  * a side, and NAME_preview.mtl */
         const char *texture_comment; /* for the headers of textures; NULL */
-        int32_t udim;                /* bake this tile only; 0 all */
+        /* Not NULL: with the bake, what osdtex_mapping_write() writes. */
+        const osdtex_write_options *mesh;
+        int32_t udim; /* bake this tile only; 0 all */
         int32_t reserved;
     } osdtex_bake_options;
 
@@ -720,6 +722,7 @@ extern "C"
             0,
             0,
             NULL,
+            NULL,
             0,
             0};
 
@@ -729,8 +732,8 @@ extern "C"
     /* Bakes a mapping into textures of the cage: NAME_cage.obj and
      * NAME_cage.mtl, NAME.<UDIM>.exr (1001 for the unit square), NAME.usda and
      * NAME.mtlx, all or none of them. `path` is FOLDER/NAME.obj; that file
-     * itself is not written. ARGUMENT (no such tile), IO, LIMIT (UVs outside of
-     * UDIM), MEMORY, CANCELLED. */
+     * itself is written only where options->mesh asks for it. ARGUMENT (no such
+     * tile), IO, LIMIT (UVs outside of UDIM), MEMORY, CANCELLED. */
     OSDTEX_API osdtex_status osdtex_bake(
         osdtex_context *context, const osdtex_mapping *mapping,
         const char *path, const osdtex_bake_options *options);

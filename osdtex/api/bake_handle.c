@@ -19,13 +19,14 @@ layout_options(const osdtex_bake_options *ours)
 static otx_status
 check(
     otx_run *run, const osdtex_mapping *mapping, const char *path,
-    const osdtex_bake_options *ours)
+    const osdtex_bake_options *ours, const osdtex_write_options *mesh)
 {
     const uint32_t known = OSDTEX_BAKE_PATCH | OSDTEX_BAKE_UV |
                            OSDTEX_BAKE_STRETCH | OSDTEX_BAKE_SEAM;
 
     if (!mapping || !path || ours->comment_count < 0 ||
-        (ours->comment_count > 0 && !ours->comments))
+        (ours->comment_count > 0 && !ours->comments) ||
+        mesh->comment_count < 0 || (mesh->comment_count > 0 && !mesh->comments))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "bake", OTX_NOWHERE,
             "no mapping, no path, or no comments are given");
@@ -48,12 +49,20 @@ bake(
     const osdtex_bake_options *options)
 {
     osdtex_bake_options ours = osdtex_bake_options_default();
+    osdtex_write_options mesh = osdtex_write_options_default();
     otx_look_options how = {.path = path};
     otx_layout_options place;
+    otx_model_options model;
     otx_layout layout;
 
     OTX_TRY(otx_call_options(&call->run, &ours, sizeof ours, options));
-    OTX_TRY(check(&call->run, mapping, path, &ours));
+    OTX_TRY(otx_call_options(&call->run, &mesh, sizeof mesh, ours.mesh));
+    OTX_TRY(check(&call->run, mapping, path, &ours, &mesh));
+    model = (otx_model_options){
+        .without_image = mesh.without_image != 0,
+        .comment_count = mesh.comment_count,
+        .comments = mesh.comments};
+    how.mesh = ours.mesh ? &model : NULL;
     place = layout_options(&ours);
     how.seam_blend = ours.seam_blend;
     how.udim = ours.udim;

@@ -1,6 +1,7 @@
 /* map_command.c -- osdtex map and osdtex bake: a cage and an exemplar in, a
  * textured model out, or the cage with textures. */
 #include "cli/bake_flags.h"
+#include "cli/bake_outputs.h"
 #include "cli/inputs.h"
 #include "cli/session.h"
 #include "cli/up_to_date.h"
@@ -32,7 +33,6 @@ typedef struct job
     bool maps, bakes; /* which files are asked for */
     char obj[PATH_BYTES], mtl[PATH_BYTES], exr[PATH_BYTES];
     char cage_obj[PATH_BYTES], cage_mtl[PATH_BYTES];
-    char tile_exr[PATH_BYTES];    /* of --udim */
     const char *preview, *report; /* NULL none */
     bool has_hash;
     char hash[OSDTEX_HASH_BYTES];
@@ -60,7 +60,7 @@ name_outputs(job *j)
 {
     const char *path = j->values->text[OTX_FLAG_OUTPUT];
     const size_t length = path ? strlen(path) : 0;
-    char *name, tile[32];
+    char *name;
 
     if (!path || !otx_value_has_extension(path, ".obj") ||
         path[length - 5] == '/' || length >= PATH_BYTES)
@@ -77,9 +77,7 @@ name_outputs(job *j)
     memcpy(j->mtl + length - 4, ".mtl", 5);
     memcpy(j->exr, j->mtl, length + 1);
     memcpy(j->exr + length - 4, ".exr", 5);
-    snprintf(tile, sizeof tile, ".%d.exr", j->bake_options.udim);
-    if (name_beside(j->mtl, tile, j->tile_exr) &&
-        name_beside(j->mtl, "_cage.obj", j->cage_obj) &&
+    if (name_beside(j->mtl, "_cage.obj", j->cage_obj) &&
         name_beside(j->mtl, "_cage.mtl", j->cage_mtl))
         return true;
     otx_session_refuse("'%s' is too long a name", path);
@@ -297,10 +295,8 @@ is_done(const job *j)
            (!j->maps ||
             (otx_up_to_date_check(j->obj, j->hash) &&
              access(j->mtl, F_OK) == 0 && access(j->exr, F_OK) == 0)) &&
-           (!j->bakes ||
-            (otx_up_to_date_check(
-                 j->bake_options.udim ? j->tile_exr : j->cage_obj, j->hash) &&
-             access(j->cage_mtl, F_OK) == 0)) &&
+           (!j->bakes || otx_bake_outputs_are_done(
+                             j->cage_obj, &j->bake_options, j->hash)) &&
            (!j->preview || access(j->preview, F_OK) == 0) &&
            (!j->report || access(j->report, F_OK) == 0);
 }
@@ -361,21 +357,19 @@ write_models(
 {
     osdtex_write_options options = osdtex_write_options_default();
     osdtex_bake_options bake = j->bake_options;
-    osdtex_status status = OSDTEX_OK;
 
     options.comments = bake.comments = comments;
     options.comment_count = bake.comment_count = count;
+    if (!j->bakes)
+        return osdtex_mapping_write(
+            session->context, j->mapping, j->obj, &options);
     bake.texture_comment = count > 1 ? comments[1] : NULL;
+    bake.mesh = j->maps ? &options : NULL;
     /* One tile does not make the whole: the cage must not say that it is done.
      */
     if (bake.udim)
         bake.comment_count = 1;
-    if (j->maps)
-        status = osdtex_mapping_write(
-            session->context, j->mapping, j->obj, &options);
-    if (status == OSDTEX_OK && j->bakes)
-        status = osdtex_bake(session->context, j->mapping, j->obj, &bake);
-    return status;
+    return osdtex_bake(session->context, j->mapping, j->obj, &bake);
 }
 
 static osdtex_status

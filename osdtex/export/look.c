@@ -303,17 +303,38 @@ write_mtl(
     return otx_mtl_write(w->run, &mtl, temporary, path);
 }
 
-/* The comments of the caller and the rule of interpolation. */
+/* "UDIM tiles 1001 1002 ..." */
+static char *
+tiles_comment(const writer *w)
+{
+    const otx_layout *layout = w->layout;
+    const size_t number = strlen(" 1001");
+    const size_t lead = strlen("UDIM tiles");
+    char *text = OTX_NEW(
+        w->run->scratch, char, lead + number * (size_t)layout->tile_count + 1);
+
+    if (!text)
+        return NULL;
+    memcpy(text, "UDIM tiles", lead);
+    for (int32_t i = 0; i < layout->tile_count; ++i)
+        snprintf(
+            text + lead + number * (size_t)i, number + 1, " %" PRId32,
+            layout->tiles[i]);
+    return text;
+}
+
+/* The comments of the caller, the rule of interpolation, and the tiles. */
 static otx_status
 list_comments(
     const writer *w, const char *const **comments, int32_t *comment_count)
 {
     const int32_t count = w->options->comment_count;
-    const char **list = OTX_NEW(w->run->scratch, const char *, count + 1);
+    const char **list = OTX_NEW(w->run->scratch, const char *, count + 2);
     const size_t bytes = 192;
     char *rule = OTX_NEW(w->run->scratch, char, bytes);
+    char *tiles = tiles_comment(w);
 
-    if (!list || !rule)
+    if (!list || !rule || !tiles)
         return otx_fail_memory(w->run, STAGE);
     for (int32_t i = 0; i < count; ++i)
         list[i] = w->options->comments[i];
@@ -322,8 +343,9 @@ list_comments(
         w->layout->is_atlas ? "of an atlas" : "of the cage",
         otx_cage_model_fvar_name(otx_cage_model_fvar(w->layout)));
     list[count] = rule;
+    list[count + 1] = tiles;
     *comments = list;
-    *comment_count = count + 1;
+    *comment_count = count + 2;
     return OSDTEX_OK;
 }
 
@@ -398,6 +420,20 @@ check_udim(const writer *w)
 }
 
 static otx_status
+write_mesh(const writer *w)
+{
+    otx_model_options options;
+    otx_model_files files;
+
+    if (!w->options->mesh)
+        return OSDTEX_OK;
+    options = *w->options->mesh;
+    options.path = w->options->path;
+    options.set = w->set;
+    return otx_model_write(w->run, w->mapping, w->exemplar, &options, &files);
+}
+
+static otx_status
 write_files(const writer *w)
 {
     OTX_TRY(check_udim(w));
@@ -405,6 +441,7 @@ write_files(const writer *w)
     for (int32_t kind = 1; kind < OTX_TEXEL_KIND_COUNT; ++kind)
         if (w->options->extras[kind])
             OTX_TRY(write_kind(w, (otx_texel_kind)kind));
+    OTX_TRY(write_mesh(w));
     OTX_TRY(write_mtlx(w));
     OTX_TRY(write_usda(w));
     /* Last into place, so that whoever waits for it finds the others. */

@@ -13,7 +13,7 @@
 #define OTX_EXPORT_LOOK_H
 
 #include "bake/bake.h"
-#include "file/atomic_file.h"
+#include "export/model.h"
 
 typedef struct otx_look_options
 {
@@ -23,7 +23,10 @@ typedef struct otx_look_options
     const otx_colour *colour;          /* for the preview; NULL: no preview */
     int32_t udim;                      /* bake this tile only; 0 all */
     const char *texture_comment;       /* for the textures; NULL none */
-    int32_t comment_count;             /* of the texts, without "# " */
+    /* What is written of the refined mesh, together with the rest; its path and
+     * set are given here. NULL: nothing. */
+    const otx_model_options *mesh;
+    int32_t comment_count; /* of the texts, without "# " */
     const char *const *comments;
 } otx_look_options;
 

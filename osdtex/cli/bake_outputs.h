@@ -1,0 +1,21 @@
+/* bake_outputs.h -- the files of a bake, and whether they are all there. */
+#ifndef OTX_CLI_BAKE_OUTPUTS_H
+#define OTX_CLI_BAKE_OUTPUTS_H
+
+#include "osdtex/osdtex.h"
+
+#include <stdbool.h>
+
+/* What stands before the tiles' numbers in a comment of the cage. */
+#define OTX_BAKE_OUTPUTS_TILES "UDIM tiles"
+
+/* Whether every file of a bake is there and of the job with this hash. With
+ * options->udim only the textures of that tile need be of this job: the others
+ * are of tasks of their own.
+ *
+ *   cage  FOLDER/NAME_cage.obj; the others are beside it */
+bool otx_bake_outputs_are_done(
+    const char *cage, const osdtex_bake_options *options,
+    const char hash[OSDTEX_HASH_BYTES]);
+
+#endif
