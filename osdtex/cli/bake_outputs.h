@@ -2,7 +2,7 @@
 #ifndef OTX_CLI_BAKE_OUTPUTS_H
 #define OTX_CLI_BAKE_OUTPUTS_H
 
-#include "osdtex/osdtex.h"
+#include <osdtex/osdtex.h>
 
 #include <stdbool.h>
 
