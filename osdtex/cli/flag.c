@@ -58,7 +58,9 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "1)"},
     [OTX_FLAG_CORNERS] =
         {"corners", 0, OTX_FLAG_GROUP_MAIN, "N",
-         "kinds of vertices, 1 to 4: N^4 times the tiles (default 1)"},
+         "kinds of vertices, 1 to 4: with 2 or more, vertices show the picture "
+         "as it is wherever the tiles around them lie alike; N^4 times the "
+         "tiles, which --for keeps few (default 1)"},
     [OTX_FLAG_TILE_SIZE] =
         {"tile-size", 0, OTX_FLAG_GROUP_MAIN, "PX",
          "texels of a tile's side with its gutters, a power of two (default "

@@ -75,8 +75,21 @@ otx_corner_build(
     OTX_TRY(lay_sector(run, pool, window, reach, &sector));
     OTX_TRY(otx_quilt_expand(run, &sector, 0));
     turn_around(&sector, &out->map);
+    out->whole = false;
     out->cost = sector.cost;
     out->seam = otx_quilt_measure(&sector).mean;
     otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_corner_lay(
+    otx_run *run, const otx_texel_pool *pool, otx_texel_window window,
+    int32_t reach, otx_corner *out)
+{
+    *out = (otx_corner){.whole = true};
+    OTX_TRY(
+        otx_texel_map_create(run, run->arena, 2 * reach, 2 * reach, &out->map));
+    otx_texel_pool_lay(pool, window, &out->map);
     return OSDTEX_OK;
 }

@@ -13,6 +13,9 @@
 typedef struct otx_corner
 {
     otx_texel_map map; /* [2 reach * 2 reach], the vertex in its middle */
+    bool whole;        /* a window as it is, for vertices around which four
+                        * tiles lie the same way up; else it looks the same
+                        * when turned, for any vertex */
     int64_t cost;      /* of the cut, see quilt.h */
     double seam;       /* mean Lab distance along the cut */
 } otx_corner;
@@ -20,6 +23,11 @@ typedef struct otx_corner
 /* The corner made of the exemplar around the texel corner that is (reach,
  * reach) above `window`'s (x, y); its turns do not matter. In run->arena. */
 otx_status otx_corner_build(
+    otx_run *run, const otx_texel_pool *pool, otx_texel_window window,
+    int32_t reach, otx_corner *out);
+
+/* The exemplar's window itself, 2 reach texels on a side. In run->arena. */
+otx_status otx_corner_lay(
     otx_run *run, const otx_texel_pool *pool, otx_texel_window window,
     int32_t reach, otx_corner *out);
 

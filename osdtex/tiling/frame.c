@@ -32,7 +32,9 @@ otx_frame_texel(
 
         if (p.t < core && p.depth < core)
             return otx_corner_texel(
-                &kit->corners[name->corners[i]], p.t, p.depth);
+                &kit->corners[name->corners[i]],
+                x - (i == 1 || i == 2 ? kit->sizes.side : 0),
+                y - (i >= 2 ? kit->sizes.side : 0));
     }
     side = otx_frame_nearest(kit, x, y);
     return otx_frame_side_texel(

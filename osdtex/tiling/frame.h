@@ -17,9 +17,34 @@ typedef struct otx_frame_kit
     otx_strip_sizes sizes;
     int32_t boundary_count, corner_count;
     otx_corner *corners; /* [corner_count] */
-    otx_strip *strips;   /* [boundary_count * corner_count * corner_count],
-                          * (boundary, corner at t = 0, corner at the end) */
+    otx_strip *strips;   /* [boundary_count * corner_count^2 * 4], see
+                          * otx_frame_strip_number */
 } otx_frame_kit;
+
+/* Of boundary `k` between the corners `start` (t = 0) and `end`, lying `turns`
+ * quarter turns from the rows. */
+static inline int32_t
+otx_frame_strip_number(
+    const otx_frame_kit *kit, int32_t k, int32_t start, int32_t end,
+    int32_t turns)
+{
+    return ((k * kit->corner_count + start) * kit->corner_count + end) * 4 +
+           turns;
+}
+
+/* The kind of most corners: the first whole one, if there is one. */
+static inline int32_t
+otx_frame_usual_corner(const otx_frame_kit *kit)
+{
+    return kit->corner_count > 1 ? 1 : 0;
+}
+
+/* Texels around a corner that nothing else may cover. */
+static inline int32_t
+otx_frame_hold(const otx_frame_kit *kit, int32_t corner)
+{
+    return kit->corners[corner].whole ? kit->sizes.hold : kit->sizes.core;
+}
 
 /* A place in a tile in the axes of a side. */
 typedef struct otx_frame_place
@@ -54,9 +79,8 @@ otx_frame_strip(
     const int32_t a = name->corners[side], b = name->corners[(side + 1) & 3];
     const int32_t start = type & 1 ? b : a, end = type & 1 ? a : b;
 
-    return &kit->strips
-                [((type >> 1) * kit->corner_count + start) * kit->corner_count +
-                 end];
+    return &kit->strips[otx_frame_strip_number(
+        kit, type >> 1, start, end, (side + 2 * (type & 1)) & 3)];
 }
 
 /* What side `side` shows at t in [0, side), depth in [-reach, reach). */

@@ -55,15 +55,33 @@ lay_window(
     return OSDTEX_OK;
 }
 
+/* Whether a corner decides what is seen at (x, y). */
+static bool
+is_held(
+    const otx_frame_kit *kit, const otx_tile_name *name, int32_t x, int32_t y)
+{
+    for (int32_t i = 0; i < 4; ++i)
+    {
+        const otx_frame_place p = otx_frame_axes(kit->sizes.side, i, x, y);
+        const int32_t hold = otx_frame_hold(kit, name->corners[i]);
+
+        if (kit->corners[name->corners[i]].whole && p.t < hold &&
+            p.depth < hold)
+            return true;
+    }
+    return false;
+}
+
 static void
-lock_rim(const otx_frame_kit *kit, otx_quilt *quilt)
+lock_rim(const otx_frame_kit *kit, const otx_tile_name *name, otx_quilt *quilt)
 {
     const int32_t n = kit->sizes.side, gutter = kit->sizes.gutter;
     uint8_t *lock = quilt->locks;
 
     for (int32_t y = 0; y < n; ++y)
         for (int32_t x = 0; x < n; ++x, ++lock)
-            if (x < gutter || y < gutter || x >= n - gutter || y >= n - gutter)
+            if (x < gutter || y < gutter || x >= n - gutter ||
+                y >= n - gutter || is_held(kit, name, x, y))
                 *lock = (uint8_t)otx_frame_nearest(kit, x, y);
 }
 
@@ -132,7 +150,7 @@ otx_interior_fill(
         OTX_TRY(lay_side(run, kit, name, side, quilt));
     for (int32_t i = 0; i < window_count; ++i)
         OTX_TRY(lay_window(run, search->pool, windows[i], quilt));
-    lock_rim(kit, quilt);
+    lock_rim(kit, name, quilt);
     for (int32_t s = 0; s <= 4; ++s)
         otx_quilt_fill(quilt, s);
     otx_quilt_price(quilt);

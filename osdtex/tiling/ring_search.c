@@ -124,7 +124,9 @@ lay_band(maker *m, int32_t type, int32_t side)
     const otx_frame_kit *kit = m->search->kit;
     const band b = band_of(&kit->sizes, side);
     const size_t rows = (size_t)b.height * m->search->stride;
-    const otx_tile_name name = {{type, type, type, type}, {0, 0, 0, 0}};
+    const int32_t usual = otx_frame_usual_corner(kit);
+    const otx_tile_name name = {
+        {type, type, type, type}, {usual, usual, usual, usual}};
 
     for (int32_t p = 0; p < PLANES; ++p)
         memset(m->planes[p], 0, rows * sizeof(float));

@@ -22,16 +22,20 @@ typedef struct otx_strip_sizes
     int32_t side;   /* length of an edge */
     int32_t gutter; /* width to which an edge decides what is seen */
     int32_t core;   /* half-width of the square that a corner decides */
+    int32_t hold;   /* the same for one that is a whole window */
     int32_t sew;    /* half-width of corners: how far a cut may wander that
                      * sews a strip to them */
     int32_t reach;  /* half-width of strips, likewise for insides */
 } otx_strip_sizes;
 
-/* Sews `edge` [2 reach * side] between `start` (t = 0) and `end`. */
+/* Sews `edge` [2 reach * side] between `start` (t = 0) and `end`.
+ *
+ *   turns  quarter turns from the tiles' rows to t, which only whole corners
+ *          mind */
 otx_status otx_strip_build(
     otx_run *run, const otx_texel_pool *pool, const otx_strip_sizes *sizes,
     const otx_texel_map *edge, const otx_corner *start, const otx_corner *end,
-    otx_strip *out);
+    int32_t turns, otx_strip *out);
 
 /* What a side of type 2k (`other` false) or 2k + 1 (true) shows at t, depth;
  * t in [0, side), depth in [-reach, reach). */

@@ -154,12 +154,32 @@ try_corner(void *context, int64_t index, otx_worker *worker)
     return OSDTEX_OK;
 }
 
+/* A whole corner has no cut; the least odd window is taken. */
+static otx_status
+try_whole(void *context, int64_t index, otx_worker *worker)
+{
+    contest *c = context;
+    otx_run run = worker_run(c, worker);
+    const int32_t size = 2 * c->kit->sizes.sew;
+    const otx_texel_window window =
+        draw_window(c, CORNER_STAGE, index, size, size);
+    otx_texel_map map;
+
+    OTX_TRY(otx_texel_map_create(&run, run.arena, size, size, &map));
+    otx_texel_pool_lay(c->pool, window, &map);
+    c->windows[index] = window;
+    c->oddness[index] = oddness(look_at(c->pool, &map, 0, 0), c->whole);
+    c->costs[index] = (int64_t)(1e6 * c->oddness[index]);
+    return OSDTEX_OK;
+}
+
 static otx_status
 try_edge(void *context, int64_t index, otx_worker *worker)
 {
     contest *c = context;
     otx_run run = worker_run(c, worker);
     const otx_strip_sizes *s = &c->kit->sizes;
+    const otx_corner *usual = &c->kit->corners[otx_frame_usual_corner(c->kit)];
     const int32_t turns =
         (c->turns +
          c->turns_step *
@@ -176,9 +196,7 @@ try_edge(void *context, int64_t index, otx_worker *worker)
     OTX_TRY(
         otx_texel_map_create(&run, run.arena, s->side, 2 * s->reach, &edge));
     otx_texel_pool_lay(c->pool, window, &edge);
-    OTX_TRY(otx_strip_build(
-        &run, c->pool, s, &edge, &c->kit->corners[0], &c->kit->corners[0],
-        &strip));
+    OTX_TRY(otx_strip_build(&run, c->pool, s, &edge, usual, usual, 0, &strip));
     c->windows[index] = window;
     c->costs[index] = strip.cost;
     c->oddness[index] =
@@ -296,18 +314,22 @@ build_corners(
     {
         otx_texel_window window;
 
-        if (i == 0 && options->has_corner)
+        if (i <= 1 && options->has_corner)
             window = (otx_texel_window){
                 (int32_t)floor(options->corner.x + 0.5) - sew,
                 (int32_t)floor(options->corner.y + 0.5) - sew, 0};
         else
         {
             c->element = (uint64_t)i;
-            OTX_TRY(hold(run, c, CORNER_CANDIDATES, try_corner, &window));
+            OTX_TRY(hold(
+                run, c, CORNER_CANDIDATES, i > 0 ? try_whole : try_corner,
+                &window));
         }
-        OTX_TRY(otx_corner_build(run, pool, window, sew, &kit->corners[i]));
+        OTX_TRY((i > 0 ? otx_corner_lay : otx_corner_build)(
+            run, pool, window, sew, &kit->corners[i]));
+        /* Only corners that are turned may look like nothing. */
+        c->looks = NULL;
     }
-    c->looks = NULL;
     return OSDTEX_OK;
 }
 
@@ -340,6 +362,24 @@ choose_edge(
     return OSDTEX_OK;
 }
 
+/* A strip in all its turns. Where both ends look the same when turned it is
+ * one and the same, however the tiles beside it lie. */
+static otx_status
+build_turned(
+    otx_run *run, const otx_texel_pool *pool, const otx_frame_kit *kit,
+    const otx_texel_map *edge, int32_t start, int32_t end, otx_strip out[4])
+{
+    const otx_corner *a = &kit->corners[start], *b = &kit->corners[end];
+
+    for (int32_t turns = 0; turns < 4; ++turns)
+        if (turns > 0 && !a->whole && !b->whole)
+            out[turns] = out[0];
+        else
+            OTX_TRY(otx_strip_build(
+                run, pool, &kit->sizes, edge, a, b, turns, &out[turns]));
+    return OSDTEX_OK;
+}
+
 static otx_status
 build_strips(
     otx_run *run, otx_texel_pool *pool, const otx_tileset_options *options,
@@ -356,9 +396,9 @@ build_strips(
             run, run->arena, s->side, 2 * s->reach, &edge));
         OTX_TRY(choose_edge(run, pool, options, layout, c, k, kit, &edge));
         for (int32_t i = 0; i < v * v; ++i)
-            OTX_TRY(otx_strip_build(
-                run, pool, s, &edge, &kit->corners[i / v], &kit->corners[i % v],
-                &kit->strips[k * v * v + i]));
+            OTX_TRY(build_turned(
+                run, pool, kit, &edge, i / v, i % v,
+                &kit->strips[otx_frame_strip_number(kit, k, i / v, i % v, 0)]));
     }
     return OSDTEX_OK;
 }
@@ -373,7 +413,8 @@ otx_template_kit(
     contest c = {.pool = pool, .kit = kit};
 
     kit->corners = OTX_ZNEW(run->arena, otx_corner, v);
-    kit->strips = OTX_ZNEW(run->arena, otx_strip, kit->boundary_count * v * v);
+    kit->strips =
+        OTX_ZNEW(run->arena, otx_strip, 4 * kit->boundary_count * v * v);
     if (!kit->corners || !kit->strips)
         return otx_fail_memory(run, STAGE);
     OTX_TRY(look_around(run, pool, &c.whole));

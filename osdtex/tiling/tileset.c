@@ -12,6 +12,7 @@ enum
     PIECE = 8,  /* tiles between two looks at the clock */
     PATCH = 24, /* texels on a side of the patches that mend seams */
     LOOK = 16,  /* of the windows that are looked up in the exemplar */
+    SPARE = 6,  /* texels that whole corners have beyond the core */
     RAY = 2     /* texels beside a ray that a corner keeps, see corner.c */
 };
 
@@ -27,13 +28,16 @@ otx_strip_sizes
 otx_tileset_sizes(const otx_tile_layout *layout)
 {
     const int32_t side = otx_tile_layout_side(layout);
-    const int32_t core = layout->gutter + RAY, sew = core + side / 20;
-    const int32_t reach = side / 4;
+    const int32_t core = layout->gutter + RAY;
+    const bool whole = layout->corners > 1 && side >= 8 * SPARE;
+    const int32_t most = side / 20, reach = side / 4;
+    const int32_t sew = core + (whole && most < SPARE ? SPARE : most);
 
     return (otx_strip_sizes){
         .side = side,
         .gutter = layout->gutter,
         .core = core,
+        .hold = whole ? core + SPARE / 2 : core,
         .sew = sew,
         .reach = reach > sew ? reach : sew,
     };
@@ -306,7 +310,7 @@ static void
 sum_up(const otx_frame_kit *kit, const filler *f, otx_tileset *set)
 {
     const int32_t strips =
-        kit->boundary_count * kit->corner_count * kit->corner_count;
+        4 * kit->boundary_count * kit->corner_count * kit->corner_count;
     double length = 0.0;
 
     for (int32_t i = 0; i < kit->corner_count; ++i)

@@ -23,15 +23,18 @@ draw(const otx_run *run, uint32_t stage, uint64_t element, int32_t count)
         int32_t)(otx_random_bits(run->seed, stage, element) % (uint64_t)count);
 }
 
-/* Names of the tiles around a vertex, counter-clockwise from the upper right
- * one: tile q has its corner q there. Its side q begins at the vertex, and is
- * seen from the other side by the tile before it as side q + 2, clockwise. */
+/* Names of the tiles around a vertex of the usual kind, counter-clockwise from
+ * the upper right one: tile q has its corner q there. Its side q begins at the
+ * vertex, and is seen from the other side by the tile before it as side q + 2,
+ * clockwise. */
 static void
 draw_tiles(
     const otx_run *run, const otx_tile_layout *l, uint64_t vertex,
     otx_tile_name names[4])
 {
-    const int32_t at = draw(run, CORNER_STAGE, 2 * vertex, l->corners);
+    const int32_t at =
+        l->corners > 1 ? 1 + draw(run, CORNER_STAGE, 2 * vertex, l->corners - 1)
+                       : 0;
     const int32_t beyond = draw(run, CORNER_STAGE, 2 * vertex + 1, l->corners);
     const int32_t kinds = l->oriented ? l->boundaries / 2 : l->boundaries;
 

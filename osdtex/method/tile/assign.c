@@ -45,13 +45,17 @@ typedef struct face_view
     int32_t corner_number; /* what the corners add to the tile's number */
 } face_view;
 
+/* Corner 0 fits any vertex; the others are whole windows, which fit where the
+ * tiles agree. */
 static inline int32_t
 vert_corner(const assigner *a, int32_t vert)
 {
-    return (int32_t)((otx_random_bits(a->seed, VERT_STAGE, (uint64_t)vert) >>
-                      40) *
-                         (uint64_t)a->corners >>
-                     24);
+    const uint64_t random =
+        otx_random_bits(a->seed, VERT_STAGE, (uint64_t)vert) >> 40;
+
+    if (!a->input->whole || !a->input->whole[vert])
+        return 0;
+    return 1 + (int32_t)(random * (uint64_t)(a->corners - 1) >> 24);
 }
 
 /* The bit of a name around a vertex. Where there are more than 64 names some

@@ -17,6 +17,8 @@ typedef struct otx_assign_input
     const otx_level *level; /* quads only */
     const otx_tile_layout *layout;
     const uint8_t *turns; /* [face_count], see tile.h; NULL: none is turned */
+    const uint8_t *whole; /* [vert_count] whether all tiles around a vertex lie
+                           * the same way up; NULL: around none */
     bool plain;           /* the paper's rule: every edge at random */
     bool upright;         /* oriented layouts: no tile upside down where the
                            * turns do not ask for it */

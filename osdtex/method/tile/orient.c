@@ -82,11 +82,9 @@ note_conflicts(
 }
 
 otx_status
-otx_orient_loops(
-    otx_run *run, const otx_surface *surface, int32_t level, uint8_t *turns)
+otx_orient_walk(otx_run *run, const otx_level *l, uint8_t *turns)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    const otx_level *l = &surface->levels[level];
     int32_t *queue = OTX_NEW(run->scratch, int32_t, l->face_count);
 
     if (!queue)
@@ -112,6 +110,36 @@ otx_orient_loops(
             }
     }
     otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
+
+void
+otx_orient_find_whole(
+    const otx_level *level, const uint8_t *turns, uint8_t *whole)
+{
+    memset(whole, 1, (size_t)level->vert_count);
+    for (int32_t e = 0; e < level->edge_count; ++e)
+    {
+        const int32_t *faces = level->edge_faces + 2 * (size_t)e;
+        const int32_t *verts = level->edge_verts + 2 * (size_t)e;
+
+        if (faces[0] < 0 || faces[1] < 0 ||
+            turns[faces[1]] == agreeing(
+                                   level, faces[0],
+                                   index_of_edge(level, faces[0], e),
+                                   turns[faces[0]], faces[1]))
+            continue;
+        whole[verts[0]] = whole[verts[1]] = 0;
+    }
+}
+
+otx_status
+otx_orient_loops(
+    otx_run *run, const otx_surface *surface, int32_t level, uint8_t *turns)
+{
+    const otx_level *l = &surface->levels[level];
+
+    OTX_TRY(otx_orient_walk(run, l, turns));
     return note_conflicts(run, surface, l, turns, true);
 }
 

@@ -8,6 +8,20 @@
 
 #include "surface/surface.h"
 
+/* Turns that agree from face to face, breadth first from the first face of
+ * every component.
+ *
+ *   turns  [face_count], see tile.h */
+otx_status
+otx_orient_walk(otx_run *run, const otx_level *level, uint8_t *turns);
+
+/* The vertices around which all tiles agree. Most do: the others are on lines
+ * between vertices at which not four faces meet.
+ *
+ *   whole  [vert_count] */
+void otx_orient_find_whole(
+    const otx_level *level, const uint8_t *turns, uint8_t *whole);
+
 /* Turns that follow the edge loops from face to face, breadth first from the
  * first face of every component. Notes the vertices around which no
  * orientation is consistent.

@@ -127,6 +127,23 @@ otx_tile_level(
 
 /* ----------------------------------------------------------- assignment */
 
+/* Turns for pictures that have a direction, and for corners that are whole. */
+static otx_status
+orient(
+    otx_run *run, const otx_surface *surface, int32_t level,
+    const otx_tile_layout *layout, const otx_tile_settings *settings,
+    uint8_t *turns)
+{
+    if (!layout->oriented)
+        return layout->corners > 1
+                   ? otx_orient_walk(run, &surface->levels[level], turns)
+                   : OSDTEX_OK;
+    if (settings->direction == OTX_TILE_LOOPS)
+        return otx_orient_loops(run, surface, level, turns);
+    return otx_orient_axis(
+        run, surface, level, settings->direction - OTX_TILE_ALONG_X, turns);
+}
+
 otx_status
 otx_tile_assign(
     otx_run *run, const otx_surface *surface, int32_t level,
@@ -134,29 +151,29 @@ otx_tile_assign(
     int32_t **names, uint8_t **turns)
 {
     const otx_level *l = &surface->levels[level];
-    const otx_assign_input input = {
+    otx_assign_input input = {
         .level = l,
         .layout = layout,
-        .turns = NULL,
         .plain = settings->rule == OTX_TILE_PLAIN,
         .upright = settings->half_turns == 0,
     };
-    otx_assign_input oriented = input;
+    uint8_t *whole;
 
     *names = OTX_NEW(run->arena, int32_t, l->face_count);
     *turns = OTX_ZNEW(run->arena, uint8_t, l->face_count);
     if (!*names || !*turns)
         return otx_fail_memory(run, STAGE);
-    if (!layout->oriented)
-        return otx_assign_names(run, &input, *names);
-    if (settings->direction == OTX_TILE_LOOPS)
-        OTX_TRY(otx_orient_loops(run, surface, level, *turns));
-    else
-        OTX_TRY(otx_orient_axis(
-            run, surface, level, settings->direction - OTX_TILE_ALONG_X,
-            *turns));
-    oriented.turns = *turns;
-    return otx_assign_names(run, &oriented, *names);
+    if (layout->oriented || layout->corners > 1)
+        input.turns = *turns;
+    OTX_TRY(orient(run, surface, level, layout, settings, *turns));
+    if (layout->corners > 1)
+    {
+        input.whole = whole = OTX_NEW(run->scratch, uint8_t, l->vert_count);
+        if (!whole)
+            return otx_fail_memory(run, STAGE);
+        otx_orient_find_whole(l, *turns, whole);
+    }
+    return otx_assign_names(run, &input, *names);
 }
 
 /* ------------------------------------------------------------------ UVs */

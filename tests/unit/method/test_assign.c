@@ -116,6 +116,53 @@ test_half_edges_fit(void **state)
     }
 }
 
+/* Around a vertex with a whole corner every tile shows another quarter of it,
+ * in turn; the corners of a cube, and lines between them, have none. */
+static void
+test_whole_corners_lie_alike(void **state)
+{
+    const otx_tile_layout layout = layout_of(1, 3, false);
+    otx_run *run = test_run_create();
+    const otx_cage_input in = mesh_cube(run);
+    const otx_cage cage = mesh_build(run, &in, NULL);
+    const otx_surface surface = mesh_refine(run, &cage, 4);
+    const otx_level *level = otx_surface_leaf(&surface);
+    uint8_t *turns = OTX_ZNEW(run->arena, uint8_t, level->face_count);
+    uint8_t *whole = OTX_ZNEW(run->arena, uint8_t, level->vert_count);
+    uint8_t *quarters = OTX_ZNEW(run->arena, uint8_t, level->vert_count);
+    int32_t *names = OTX_NEW(run->arena, int32_t, level->face_count);
+    const otx_assign_input input = {
+        .level = level, .layout = &layout, .turns = turns, .whole = whole};
+    int32_t count = 0;
+
+    (void)state;
+    assert_int_equal(otx_orient_walk(run, level, turns), OSDTEX_OK);
+    otx_orient_find_whole(level, turns, whole);
+    assert_int_equal(otx_assign_names(run, &input, names), OSDTEX_OK);
+    check_names(&input, names, run);
+    for (int32_t f = 0; f < level->face_count; ++f)
+    {
+        const otx_tile_name name = otx_tile_layout_name(&layout, names[f]);
+
+        for (int32_t i = 0; i < 4; ++i)
+        {
+            const int32_t vert =
+                level->face_verts[4 * f + ((i + turns[f]) & 3)];
+
+            assert_int_equal(name.corners[i] > 0, whole[vert]);
+            quarters[vert] |= (uint8_t)(1 << i);
+        }
+    }
+    for (int32_t v = 0; v < level->vert_count; ++v)
+    {
+        count += whole[v];
+        if (whole[v])
+            assert_int_equal(quarters[v], 15);
+    }
+    assert_in_range(count, level->vert_count * 3 / 4, level->vert_count - 8);
+    test_run_destroy(run);
+}
+
 /* On a grid the rule leaves no equal neighbours and uses all tiles alike. */
 static void
 test_use_is_balanced(void **state)
@@ -184,6 +231,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_half_edges_fit),
+        cmocka_unit_test(test_whole_corners_lie_alike),
         cmocka_unit_test(test_use_is_balanced),
         cmocka_unit_test(test_loops_orient_a_grid),
         cmocka_unit_test(test_singular_vertices_are_named),
