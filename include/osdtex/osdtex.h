@@ -865,8 +865,8 @@ extern "C"
         int32_t samples;  /* to a pixel's side: n * n, 1 .. 16 */
         int32_t unlit;    /* 1: the colours as they are */
         const char *show; /* "texture", "patches", "stretch", "seams", "uv",
-                           * "normals", "flat", "field", "singularities"; NULL:
-                           * texture */
+                           * "normals", "flat", "field", "singularities",
+                           * "cells"; NULL: texture */
         const char *view; /* "three_quarter", "front", "back", "left", "right",
                            * "top"; "seam1" to "seam99": close to the places
                            * where seams show, the worst first; NULL:

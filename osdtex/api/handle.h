@@ -60,6 +60,7 @@ struct osdtex_model
     /* A field to show; NULL none. */
     const otx_surface *surface;
     const otx_guide *guide;
+    const otx_cell_map *lattice;
 };
 
 #endif

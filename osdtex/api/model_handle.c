@@ -350,6 +350,7 @@ create_model(otx_call *call, const osdtex_mapping *mapping, osdtex_model **out)
         run, &mapping->mapping, &exemplar, &handle->scene));
     handle->surface = &mapping->surface->surface;
     handle->guide = mapping->mapping.guide;
+    handle->lattice = mapping->mapping.lattice;
     *out = handle;
     return OSDTEX_OK;
 }

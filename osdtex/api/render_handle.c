@@ -1,5 +1,6 @@
 /* render_handle.c -- a picture of a model. */
 #include "api/call.h"
+#include "api/cell_view.h"
 #include "api/field_view.h"
 #include "api/handle.h"
 #include "api/image_handle.h"
@@ -89,6 +90,11 @@ render(
         (how.show == OTX_SHOW_FIELD || how.show == OTX_SHOW_SINGULARITIES))
     {
         OTX_TRY(otx_field_view(run, model->surface, model->guide, &overlay));
+        how.overlay = &overlay;
+    }
+    if (model->lattice && how.show == OTX_SHOW_CELLS)
+    {
+        OTX_TRY(otx_cell_view(run, model->surface, model->lattice, &overlay));
         how.overlay = &overlay;
     }
     OTX_TRY(otx_render(run, &model->scene, &how, &image));

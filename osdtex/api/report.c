@@ -196,6 +196,20 @@ put_colour(
     }
 }
 
+/* What became of periodic coordinates. */
+static void
+put_lattice(json_t *mapping, const otx_map_stats *stats)
+{
+    json_t *l = add_object(mapping, "lattice");
+
+    set_int(l, "faces", stats->lattice_faces);
+    set_int(l, "singular_faces", stats->singular_faces);
+    set_int(l, "cancelled", stats->cancelled);
+    set_real(l, "clean_area_share", stats->clean_share);
+    set_real(l, "filled_area_share", stats->filled_share);
+    set_real(l, "gradient_error", stats->gradient_error);
+}
+
 static void
 put_mapping(json_t *root, const osdtex_mapping *mapping)
 {
@@ -220,6 +234,8 @@ put_mapping(json_t *root, const osdtex_mapping *mapping)
     set_real(m, "cut_after", stats->cut_after);
     set_real(m, "relax_before", stats->relax_before);
     set_real(m, "relax_after", stats->relax_after);
+    if (stats->lattice_faces > 0)
+        put_lattice(m, stats);
 }
 
 static void

@@ -181,8 +181,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_SHOW] =
         {"show", 0, OTX_FLAG_GROUP_PICTURE, "WHAT",
          "of the picture or preview: texture, patches, stretch, seams, uv, "
-         "normals, flat, field or "
-         "singularities (default texture)"},
+         "normals, flat, field, "
+         "singularities or cells (default texture)"},
     [OTX_FLAG_UNLIT] =
         {"unlit", 0, OTX_FLAG_GROUP_PICTURE, NULL,
          "the colours as they are, without light"},

@@ -17,6 +17,16 @@ typedef struct otx_guide
     double angle;               /* of the exemplar's direction, radians */
 } otx_guide;
 
+/* Where a lattice lies on the surface, for pictures of it. */
+typedef struct otx_cell_map
+{
+    const otx_vec2 *cells;   /* [leaf corner_count] lattice coordinates; whole
+                              * numbers are the lines between cells */
+    const uint8_t *open;     /* [leaf face_count] 1: patches cover it instead */
+    const otx_vec3 *defects; /* [defect_count] dislocations, scene units */
+    int32_t defect_count;
+} otx_cell_map;
+
 typedef struct otx_mapping
 {
     const otx_surface *surface;
@@ -26,7 +36,8 @@ typedef struct otx_mapping
      * which the patches were fitted. */
     int32_t *face_patch;
     int32_t patch_count;
-    const otx_guide *guide; /* that it follows; NULL none */
+    const otx_guide *guide;      /* that it follows; NULL none */
+    const otx_cell_map *lattice; /* that it shows; NULL none */
 } otx_mapping;
 
 #endif

@@ -35,6 +35,14 @@ typedef struct otx_map_stats
     double fit_error_mean;              /* of accepted fits, same unit */
     double cut_before, cut_after;       /* seam energy; 0 when not cut */
     double relax_before, relax_after;
+    /* Of periodic coordinates; lattice_faces 0: the method has none. */
+    int32_t lattice_faces;  /* that were solved on */
+    int32_t singular_faces; /* of them that hold a dislocation */
+    int32_t cancelled;      /* dislocations that were made to vanish */
+    double clean_share;     /* of the area, over a cell from any */
+    double filled_share;    /* of the area, covered by patches */
+    double gradient_error;  /* RMS of the steps' departure from the field's
+                             * gradient, relative to it */
 } otx_map_stats;
 
 /* Ends the stage that is running and starts the next; NULL only ends. */

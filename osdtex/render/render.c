@@ -24,6 +24,7 @@ static const char *const SHOW_NAMES[OTX_SHOW_COUNT] = {
     [OTX_SHOW_FLAT] = "flat",
     [OTX_SHOW_FIELD] = "field",
     [OTX_SHOW_SINGULARITIES] = "singularities",
+    [OTX_SHOW_CELLS] = "cells",
 };
 
 /* What the tiles of a picture share. */
@@ -93,6 +94,11 @@ check_options(otx_run *run, const otx_render_options *options)
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "the model has no direction field to show; `osdtex field` makes "
             "one, and maps of directional exemplars follow one");
+    if (!options->overlay && options->show == OTX_SHOW_CELLS)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "the model has no lattice to show; previews of `osdtex map "
+            "--method material` have one");
     if (options->camera && !otx_camera_is_valid(options->camera))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,

@@ -20,6 +20,7 @@ typedef enum otx_show
     OTX_SHOW_FLAT,          /* grey clay */
     OTX_SHOW_FIELD,         /* the overlay on clay */
     OTX_SHOW_SINGULARITIES, /* the overlay's dots on a pale texture */
+    OTX_SHOW_CELLS,         /* the overlay on a pale texture */
     OTX_SHOW_COUNT
 } otx_show;
 
@@ -35,14 +36,14 @@ typedef struct otx_render_options
     otx_view view;
     double turn;                /* radians about Y */
     double seam_width;          /* of the lines, pixels */
-    const otx_overlay *overlay; /* for FIELD and SINGULARITIES */
+    const otx_overlay *overlay; /* for FIELD, SINGULARITIES, CELLS */
 } otx_render_options;
 
 /* 1280 x 720, 4 x 4 samples, the texture lit from three quarters. */
 otx_render_options otx_render_defaults(void);
 
 /* "texture", "patches", "stretch", "seams", "uv", "normals", "flat", "field",
- * "singularities". */
+ * "singularities", "cells". */
 const char *otx_render_show_name(otx_show show);
 bool otx_render_show_find(const char *name, otx_show *out);
 

@@ -108,6 +108,7 @@ otx_shade_prepare(
     case OTX_SHOW_FIELD:
         return otx_overlay_prepare(run, scene, options->overlay, &out->overlay);
     case OTX_SHOW_SINGULARITIES:
+    case OTX_SHOW_CELLS:
         OTX_TRY(
             otx_overlay_prepare(run, scene, options->overlay, &out->overlay));
         return prepare_textures(run, out);
@@ -352,6 +353,7 @@ surface_color(
         draw_overlay(shade, hit, rgb);
         return;
     case OTX_SHOW_SINGULARITIES:
+    case OTX_SHOW_CELLS:
         pale_color(shade, hit, rgb);
         draw_overlay(shade, hit, rgb);
         return;

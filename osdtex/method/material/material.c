@@ -118,8 +118,7 @@ refine_cells(otx_material *m, otx_vec2 **out)
     {
         const otx_level *level = &m->surface->levels[l];
         const otx_level *finer = level + 1;
-        otx_vec2 *cells =
-            OTX_NEW(m->run->scratch, otx_vec2, finer->corner_count);
+        otx_vec2 *cells = OTX_NEW(m->run->arena, otx_vec2, finer->corner_count);
 
         if (!cells)
             return otx_fail_memory(m->run, "map");
@@ -135,22 +134,40 @@ lay_uvs(otx_material *m)
 {
     const otx_level *leaf = otx_surface_leaf(m->surface);
     const otx_vec2 *g = m->analysis.generators;
-    uint8_t *open = OTX_ZNEW(m->run->scratch, uint8_t, leaf->face_count);
-    otx_vec2 *cells;
 
     m->uvs = OTX_NEW(m->run->arena, otx_vec2, leaf->corner_count);
     m->face_patch = OTX_NEW(m->run->arena, int32_t, leaf->face_count);
-    if (!m->uvs || !m->face_patch || !open)
+    m->open = OTX_ZNEW(m->run->arena, uint8_t, leaf->face_count);
+    if (!m->uvs || !m->face_patch || !m->open)
         return otx_fail_memory(m->run, "map");
-    OTX_TRY(refine_cells(m, &cells));
-    OTX_TRY(otx_refill_choose(m, cells, open));
-    OTX_TRY(otx_label_windows(m, open, cells));
-    OTX_TRY(otx_label_patches(m, open, cells, m->face_patch, &m->patch_count));
+    OTX_TRY(refine_cells(m, &m->cells));
+    OTX_TRY(otx_refill_choose(m));
+    OTX_TRY(otx_label_windows(m, m->open, m->cells));
+    OTX_TRY(otx_label_patches(
+        m, m->open, m->cells, m->face_patch, &m->patch_count));
     for (int32_t i = 0; i < leaf->corner_count; ++i)
         m->uvs[i] = otx_vec2_add(
             m->analysis.centre, otx_vec2_add(
-                                    otx_vec2_scale(cells[i].x, g[0]),
-                                    otx_vec2_scale(cells[i].y, g[1])));
+                                    otx_vec2_scale(m->cells[i].x, g[0]),
+                                    otx_vec2_scale(m->cells[i].y, g[1])));
+    return OSDTEX_OK;
+}
+
+/* What pictures of the cells need. */
+static otx_status
+show_lattice(otx_material *m, otx_mapping *out)
+{
+    otx_cell_map *map = OTX_NEW(m->run->arena, otx_cell_map, 1);
+    otx_vec3 *defects =
+        OTX_NEW(m->run->arena, otx_vec3, m->phase.defect_count + 1);
+
+    if (!map || !defects)
+        return otx_fail_memory(m->run, "map");
+    *map = (otx_cell_map){m->cells, m->open, defects, 0};
+    for (int32_t f = 0; f < m->connection.level->face_count; ++f)
+        if (m->phase.defect[f])
+            defects[map->defect_count++] = m->connection.centres[f];
+    out->lattice = map;
     return OSDTEX_OK;
 }
 
@@ -175,7 +192,8 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     otx_map_stats_stage(stats, "phase");
     OTX_TRY(solve_phases(&m));
     OTX_TRY(lay_uvs(&m));
-    return otx_refill_run(&m, out);
+    OTX_TRY(otx_refill_run(&m, out));
+    return show_lattice(&m, out);
 }
 
 const otx_method otx_method_material = {

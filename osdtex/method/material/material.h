@@ -57,8 +57,8 @@ typedef struct otx_material
     int32_t *face_patch; /* [leaf face_count] */
     otx_vec2 *uvs;       /* [leaf corner_count] texels */
     int32_t patch_count;
-    double clean_share;  /* of the area, farther than a cell from a defect */
-    double filled_share; /* of the area, covered by patches */
+    otx_vec2 *cells; /* [leaf corner_count] lattice coordinates */
+    uint8_t *open;   /* [leaf face_count] 1: patches cover it */
 } otx_material;
 
 /* label.c: takes whole cells off the faces that are not `open` ([leaf
@@ -74,8 +74,7 @@ otx_status otx_label_patches(
     int32_t *face_patch, int32_t *patch_count);
 
 /* refill.c: which leaf faces the periodic texture does not suit, 1 each. */
-otx_status
-otx_refill_choose(otx_material *m, const otx_vec2 *cells, uint8_t *open);
+otx_status otx_refill_choose(otx_material *m);
 /* Covers them by patches that follow the field. */
 otx_status otx_refill_run(otx_material *m, otx_mapping *out);
 

@@ -511,6 +511,24 @@ measure(solver *s)
     }
 }
 
+static void
+measure_error(solver *s)
+{
+    double off = 0.0, all = 0.0;
+
+    for (int axis = 0; axis < 2; ++axis)
+        for (int32_t e = 0; e < s->c->level->edge_count; ++e)
+        {
+            const double w = otx_phase_edge_weight(s->c, e);
+            const double wish = s->wish[axis][e];
+            const double d = s->step[axis][e] - wish;
+
+            off += w * d * d;
+            all += w * wish * wish;
+        }
+    s->phase->error = all > 0.0 ? sqrt(off / all) : 0.0;
+}
+
 static otx_status
 solve(solver *s)
 {
@@ -536,6 +554,7 @@ solve(solver *s)
     mark_singular(s);
     for (int32_t f = 0; f < s->c->level->face_count; ++f)
         s->phase->defect_count += s->phase->defect[f];
+    measure_error(s);
     return otx_progress(s->run, "field", 1.0);
 }
 

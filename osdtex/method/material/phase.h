@@ -41,6 +41,8 @@ typedef struct otx_phase
     uint8_t *defect; /* [face_count] 1: steps do not sum to zero */
     int32_t defect_count;
     int32_t cancelled; /* dislocations that were made to vanish */
+    double error; /* RMS of steps less what the field asks for, over the RMS
+                   * of that */
 } otx_phase;
 
 /* The level to solve on for cells of length `cell`, scene units: the coarsest

@@ -12,6 +12,30 @@ static const double REACH = 1.0;
 
 /* -- which faces --------------------------------------------------------- */
 
+/* Whether no corner of a leaf face is turned inside out. */
+static bool
+is_unfolded(const otx_material *m, const otx_vec2 *cells, int32_t face)
+{
+    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const int32_t first = leaf->face_first[face];
+    const int32_t size = otx_level_face_size(leaf, face);
+    const double sense =
+        otx_vec2_cross(m->analysis.generators[0], m->analysis.generators[1]);
+
+    for (int32_t k = 0; k < size; ++k)
+    {
+        const otx_vec2 at = cells[first + k];
+
+        if (!(sense *
+                  otx_vec2_cross(
+                      otx_vec2_sub(cells[first + (k + 1) % size], at),
+                      otx_vec2_sub(cells[first + (k + size - 1) % size], at)) >
+              0.0))
+            return false;
+    }
+    return true;
+}
+
 /* Whether every fan triangle of a leaf face keeps its sense and its size
  * within `limit`. */
 static bool
@@ -65,8 +89,19 @@ solved_face(const otx_material *m, int32_t leaf_face)
     return face;
 }
 
+static void
+note_stats(const otx_material *m, double clean, double filled)
+{
+    m->stats->lattice_faces = m->connection.level->face_count;
+    m->stats->singular_faces = m->phase.defect_count;
+    m->stats->cancelled = m->phase.cancelled;
+    m->stats->gradient_error = m->phase.error;
+    m->stats->clean_share = clean;
+    m->stats->filled_share = filled;
+}
+
 otx_status
-otx_refill_choose(otx_material *m, const otx_vec2 *cells, uint8_t *open)
+otx_refill_choose(otx_material *m)
 {
     const otx_level *leaf = otx_surface_leaf(m->surface);
     double clean = 0.0, filled = 0.0, all = 0.0;
@@ -76,23 +111,23 @@ otx_refill_choose(otx_material *m, const otx_vec2 *cells, uint8_t *open)
         const double distance = m->distance[solved_face(m, f)];
         const double area = leaf->face_hole[f] ? 0.0 : face_area(m, f);
 
-        open[f] = m->settings->fill && !leaf->face_hole[f] &&
-                  (distance <= m->settings->clear * m->cell ||
-                   !is_sound(m, cells, f));
+        m->open[f] =
+            m->settings->fill && !leaf->face_hole[f] &&
+            (distance <= m->settings->clear * m->cell ||
+             !is_unfolded(m, m->cells, f) || !is_sound(m, m->cells, f));
         all += area;
         clean += distance > m->cell ? area : 0.0;
-        filled += open[f] ? area : 0.0;
+        filled += m->open[f] ? area : 0.0;
     }
-    m->clean_share = clean / all;
-    m->filled_share = filled / all;
+    note_stats(m, clean / all, filled / all);
     otx_note(
         m->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
         "%d of %d faces hold a dislocation, %d have been cancelled; %.1f %% of "
         "the area is farther "
         "than a cell from any, %.1f %% is covered by patches",
         (int)m->phase.defect_count, (int)m->connection.level->face_count,
-        (int)m->phase.cancelled, 100.0 * m->clean_share,
-        100.0 * m->filled_share);
+        (int)m->phase.cancelled, 100.0 * m->stats->clean_share,
+        100.0 * m->stats->filled_share);
     return OSDTEX_OK;
 }
 

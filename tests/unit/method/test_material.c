@@ -42,17 +42,26 @@ make_exemplar(otx_run *run, bool lattice, bool wrap)
 }
 
 static otx_status
-map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    double scale, otx_mapping *out)
+map_with(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    double scale, otx_mapping *out, otx_map_stats *stats)
 {
     const otx_method *method = otx_method_find("material");
     void *settings = otx_arena_zalloc(run->arena, 1, method->settings_bytes);
     const otx_map_request request = {.scale = scale, .first_face = -1};
-    otx_map_stats stats;
 
     otx_option_defaults(method->options, method->option_count, settings);
     return otx_method_map(
-        run, method, surface, exemplar, &request, settings, out, &stats);
+        run, method, surface, exemplar, &request, settings, out, stats);
+}
+
+static otx_status
+map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    double scale, otx_mapping *out)
+{
+    otx_map_stats stats;
+
+    return map_with(run, surface, exemplar, scale, out, &stats);
 }
 
 static void
@@ -139,6 +148,33 @@ the_same_for_any_number_of_threads(void **state)
     test_run_destroy(runs[1]);
 }
 
+/* The report's figures, and cells that pictures can be made of. */
+static void
+what_was_done_is_told(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_exemplar e = make_exemplar(run, true, true);
+    const otx_cage_input in = mesh_cube(run);
+    const field_surface *s = field_from_input(run, &in, 4);
+    const otx_level *leaf = otx_surface_leaf(&s->surface);
+    int32_t open = 0;
+    otx_map_stats stats;
+    otx_mapping m;
+
+    (void)state;
+    assert_int_equal(
+        map_with(run, &s->surface, &e, 1.5, &m, &stats), OSDTEX_OK);
+    assert_true(stats.lattice_faces > 0);
+    assert_true(stats.clean_share > 0.0 && stats.clean_share <= 1.0);
+    assert_true(stats.gradient_error > 0.0 && stats.gradient_error < 0.5);
+    assert_non_null(m.lattice);
+    assert_int_equal(m.lattice->defect_count, stats.singular_faces);
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        open += m.lattice->open[f];
+    assert_int_equal(open > 0, stats.filled_share > 0.0);
+    test_run_destroy(run);
+}
+
 static void
 what_has_no_lattice_is_refused(void **state)
 {
@@ -188,6 +224,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(covers_without_folds),
         cmocka_unit_test(the_same_for_any_number_of_threads),
+        cmocka_unit_test(what_was_done_is_told),
         cmocka_unit_test(what_has_no_lattice_is_refused),
         cmocka_unit_test(the_method_follows_the_exemplar),
     };
