@@ -157,14 +157,17 @@ time_map(const bench_options *options, bench_report *report)
         .leaf = LEAF_TEXELS,
         .exemplar_size = EXEMPLAR};
     const bench_map_job own = own_job(options);
+    bench_map_job large = octopus;
 
+    large.exemplar_size = 2 * EXEMPLAR;
     bench_report_begin(
         report,
-        "map: refinement and mapping, exemplar 256 x 256; stages are wall "
-        "seconds (median job)",
+        "map: refinement and mapping, exemplar 256 x 256, octopus also 512 x "
+        "512; stages are wall seconds (median job)",
         COLUMNS);
     return time_job("sphere", &sphere, repeat, report) &&
            time_job("octopus", &octopus, repeat, report) &&
+           time_job("octopus, 512", &large, repeat, report) &&
            (!options->cage || time_job("own", &own, repeat, report));
 }
 
