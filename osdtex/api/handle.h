@@ -53,6 +53,21 @@ struct osdtex_mapping
     osdtex_mapping_info info;
 };
 
+struct osdtex_field
+{
+    otx_arena *arena;
+    const osdtex_surface *surface;
+    otx_connection connection; /* of the leaf level */
+    otx_constraint_set set;    /* its items grow with edits */
+    otx_direction_request request;
+    otx_direction direction;
+    otx_scale_correction correction;
+    double *asked_scale; /* [vert_count] -ln of what constraints ask */
+    double *material;    /* [vert_count] */
+    otx_guide guide;     /* to be shown */
+    osdtex_field_info info;
+};
+
 struct osdtex_model
 {
     otx_arena *arena;

@@ -1,6 +1,7 @@
 /* map_input.c -- what a user says about fields and the exemplar, checked. */
 #include "api/map_input.h"
 
+#include "bridge/charconv.h"
 #include "file/constraint_file.h"
 
 #include <string.h>
@@ -11,22 +12,47 @@ vector(const double v[3])
     return (otx_vec3){v[0], v[1], v[2]};
 }
 
-otx_status
-otx_map_input_constraints(
-    otx_run *run, const osdtex_map_options *options,
-    const otx_constraint_set **out)
+/* What the whole field is to follow: a word, or a vector as text. */
+static otx_status
+read_follow(otx_run *run, const char *text, otx_constraint_set *set)
 {
-    otx_constraint_set *set;
-    otx_constraint *items;
-    otx_constraint_file file;
+    const char *end = text + strlen(text), *at = text;
+    double v[3];
+    int count = 0;
 
-    *out = NULL;
-    if (!options->constraints)
+    set->axis = (otx_vec3){0, 1, 0};
+    set->follow = strcmp(text, "up") == 0          ? OTX_FOLLOW_AXIS
+                  : strcmp(text, "edges") == 0     ? OTX_FOLLOW_EDGES
+                  : strcmp(text, "curvature") == 0 ? OTX_FOLLOW_CURVATURE
+                                                   : OTX_FOLLOW_NOTHING;
+    if (set->follow != OTX_FOLLOW_NOTHING || strcmp(text, "smooth") == 0)
         return OSDTEX_OK;
-    OTX_TRY(otx_constraint_file_read(run, options->constraints, &file));
-    set = OTX_NEW(run->arena, otx_constraint_set, 1);
+    while (count < 3 &&
+           otx_charconv_read_double(at, end, &v[count], &at) == OTX_CHARCONV_OK)
+    {
+        ++count;
+        at += count < 3 && *at == ',';
+    }
+    if (count < 3 || at != end)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "field", OTX_NOWHERE,
+            "a field follows smooth, up, edges, curvature or an axis X,Y,Z, "
+            "not '%.60s'",
+            text);
+    set->follow = OTX_FOLLOW_AXIS;
+    set->axis = vector(v);
+    return OSDTEX_OK;
+}
+
+static otx_status
+read_file(otx_run *run, const char *path, otx_constraint_set *set)
+{
+    otx_constraint_file file;
+    otx_constraint *items;
+
+    OTX_TRY(otx_constraint_file_read(run, path, &file));
     items = OTX_NEW(run->arena, otx_constraint, file.count);
-    if (!set || !items)
+    if (!items)
         return otx_fail_memory(run, "constraints");
     for (int32_t i = 0; i < file.count; ++i)
         items[i] = (otx_constraint){
@@ -36,17 +62,39 @@ otx_map_input_constraints(
             .has_direction = file.lines[i].has_direction,
             .direction = vector(file.lines[i].direction),
             .scale = file.lines[i].scale,
+            .has_material = file.lines[i].has_material,
+            .material = file.lines[i].material,
         };
-    *set = (otx_constraint_set){
-        .path = file.path,
-        .symmetry = file.symmetry,
-        .axis = vector(file.axis),
-        .axis_length = file.axis_length,
-        .count = file.count,
-        .items = items,
-    };
-    *out = set;
+    set->path = file.path;
+    set->symmetry = file.symmetry;
+    set->follow_length = file.follow_length;
+    set->count = file.count;
+    set->items = items;
+    if (file.follow && strcmp(file.follow, "axis") != 0)
+        return read_follow(run, file.follow, set);
+    if (file.follow)
+        set->follow = OTX_FOLLOW_AXIS;
+    set->axis = vector(file.axis);
     return OSDTEX_OK;
+}
+
+otx_status
+otx_map_input_constraints(
+    otx_run *run, const char *path, const char *follow,
+    const otx_constraint_set **out)
+{
+    otx_constraint_set *set;
+
+    *out = NULL;
+    if (!path && !follow)
+        return OSDTEX_OK;
+    set = OTX_ZNEW(run->arena, otx_constraint_set, 1);
+    if (!set)
+        return otx_fail_memory(run, "constraints");
+    if (path)
+        OTX_TRY(read_file(run, path, set));
+    *out = set;
+    return follow ? read_follow(run, follow, set) : OSDTEX_OK;
 }
 
 static otx_status

@@ -5,10 +5,10 @@
 #include "image/exemplar.h"
 #include "method/method.h"
 
-/* Reads the constraints file of the options; `*out` is NULL when there is
- * none. */
+/* Reads a file of constraints, and what the field is to follow instead of what
+ * the file says; `*out` is NULL when both are. */
 otx_status otx_map_input_constraints(
-    otx_run *run, const osdtex_map_options *options,
+    otx_run *run, const char *path, const char *follow,
     const otx_constraint_set **out);
 
 /* What the user takes the exemplar for; `*out` is NULL when he says nothing.

@@ -109,8 +109,8 @@ map(otx_run *run, const osdtex_surface *surface,
     handle->exemplar = exemplar;
     handle->seed = ours.seed;
     OTX_TRY(choose_request(run, surface, &ours, &handle->request));
-    OTX_TRY(
-        otx_map_input_constraints(run, &ours, &handle->request.constraints));
+    OTX_TRY(otx_map_input_constraints(
+        run, ours.constraints, ours.follow, &handle->request.constraints));
     OTX_TRY(otx_map_input_analysis(
         run, &ours, &exemplar->exemplar, &handle->request.analysis));
     OTX_TRY(choose_method(run, ours.method, handle));

@@ -368,6 +368,49 @@ osdtex_model_create(
     return otx_call_end(&call, create_model(&call, mapping, out));
 }
 
+static otx_status
+create_from_field(otx_run *run, const osdtex_field *field, osdtex_model **out)
+{
+    osdtex_model *handle = OTX_ZNEW(run->arena, osdtex_model, 1);
+    const otx_level *leaf;
+
+    if (!handle)
+        return otx_fail_memory(run, "model");
+    if (!field)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
+            "no field is given");
+    leaf = field->connection.level;
+    handle->arena = run->arena;
+    handle->surface = &field->surface->surface;
+    handle->guide = &field->guide;
+    handle->scene = (otx_scene){
+        .vert_count = leaf->vert_count,
+        .face_count = leaf->face_count,
+        .corner_count = leaf->corner_count,
+        .points = handle->surface->points,
+        .face_first = leaf->face_first,
+        .face_verts = leaf->face_verts,
+        .face_hole = leaf->face_hole,
+        .vert_normals = handle->surface->normals,
+    };
+    *out = handle;
+    return OSDTEX_OK;
+}
+
+osdtex_status
+osdtex_model_create_field(
+    osdtex_context *context, const osdtex_field *field, osdtex_model **out)
+{
+    otx_call call;
+
+    if (!out)
+        return OSDTEX_ERROR_ARGUMENT;
+    *out = NULL;
+    OTX_TRY(otx_call_begin(context, "model", &call));
+    return otx_call_end(&call, create_from_field(&call.run, field, out));
+}
+
 void
 osdtex_model_destroy(osdtex_model *model)
 {

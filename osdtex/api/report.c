@@ -3,6 +3,7 @@
  * Keys are sorted and numbers are printed by jansson, which undoes a decimal
  * comma. What is in it is described in docs/report.md. */
 #include "api/call.h"
+#include "api/field_report.h"
 #include "api/handle.h"
 #include "api/tile_report.h"
 #include "base/hash.h"
@@ -392,6 +393,7 @@ write_report(otx_call *call, const osdtex_mapping *mapping, const char *path)
     put_colour(root, context, mapping);
     put_mapping(root, mapping);
     OTX_TRY(otx_tile_report_add(run, mapping, root));
+    OTX_TRY(otx_field_report_add(run, mapping, root));
     put_seams(root, &measure);
     put_distortion(root, &measure);
     put_cost(root, context, mapping);

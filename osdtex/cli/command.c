@@ -44,6 +44,7 @@ static const otx_flag_id map_flags[] = {
     OTX_FLAG_EXTRA,
     OTX_FLAG_PREVIEW_PNG,
     OTX_FLAG_SHOW,
+    OTX_FLAG_FOLLOW,
     OTX_FLAG_COUNT};
 
 static const otx_flag_id bake_flags[] = {
@@ -60,7 +61,7 @@ static const otx_flag_id bake_flags[] = {
     OTX_FLAG_COLORCONFIG,    OTX_FLAG_THREADS,     OTX_FLAG_MEMORY_LIMIT,
     OTX_FLAG_DRY_RUN,        OTX_FLAG_UPDATE,      OTX_FLAG_VERBOSE,
     OTX_FLAG_QUIET,          OTX_FLAG_HELP,        OTX_FLAG_VERSION,
-    OTX_FLAG_SHOW,           OTX_FLAG_COUNT};
+    OTX_FLAG_SHOW,           OTX_FLAG_FOLLOW,      OTX_FLAG_COUNT};
 
 static const otx_flag_id tiles_flags[] = {
     OTX_FLAG_OUTPUT,
@@ -103,6 +104,16 @@ static const otx_flag_id render_flags[] = {
     OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_DRY_RUN,     OTX_FLAG_VERBOSE,
     OTX_FLAG_QUIET,        OTX_FLAG_HELP,        OTX_FLAG_VERSION,
     OTX_FLAG_COUNT};
+
+static const otx_flag_id field_flags[] = {
+    OTX_FLAG_OUTPUT,   OTX_FLAG_CONSTRAINTS,  OTX_FLAG_FOLLOW,
+    OTX_FLAG_SYMMETRY, OTX_FLAG_OCTAVES,      OTX_FLAG_LEVEL,
+    OTX_FLAG_SHOW,     OTX_FLAG_CAMERA,       OTX_FLAG_TURN,
+    OTX_FLAG_SIZE,     OTX_FLAG_SAMPLES,      OTX_FLAG_UNLIT,
+    OTX_FLAG_SCHEME,   OTX_FLAG_BOUNDARY,     OTX_FLAG_FVAR,
+    OTX_FLAG_THREADS,  OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_DRY_RUN,
+    OTX_FLAG_VERBOSE,  OTX_FLAG_QUIET,        OTX_FLAG_HELP,
+    OTX_FLAG_VERSION,  OTX_FLAG_COUNT};
 
 static const otx_flag_id regress_flags[] = {
     OTX_FLAG_OUTPUT, OTX_FLAG_UPDATE_CASE, OTX_FLAG_PROGRAM, OTX_FLAG_HISTORY,
@@ -173,6 +184,16 @@ static const otx_command commands[] = {
      "osdtex render pebbles.obj -o pebbles.png --camera front --size 800x800\n"
      "osdtex render pebbles.obj -o patches.png --show patches --unlit\n",
      render_flags, otx_render_command_run},
+    {"field", "CAGE.obj", 1, 1, "show or write a direction field on a cage",
+     "Solves for the field of directions that textures follow: the smoothest, "
+     "or what\nconstraints and --follow ask for. A picture shows its lines, "
+     "and "
+     "dots where it\nhas no direction; a .csv has a line for each face of the "
+     "cage, or of --level N,\nand can be given as --constraints again.",
+     "osdtex field models/cages/creature.obj -o field.png --follow up\n"
+     "osdtex field shirt.obj -o field.csv --constraints pull.json --symmetry "
+     "4\n",
+     field_flags, otx_field_command_run},
     {"regress", "DIR [CASE...]", 1, OTX_FLAG_OPERANDS_MAX,
      "run a table of cases and compare them with their references",
      "Runs the cases of DIR/table.json and holds them against DIR/reference: "

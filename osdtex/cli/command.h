@@ -39,6 +39,7 @@ const char *otx_command_name(int index);
 int otx_map_command_run(const otx_flag_values *values);
 int otx_tiles_command_run(const otx_flag_values *values);
 int otx_bake_command_run(const otx_flag_values *values);
+int otx_field_command_run(const otx_flag_values *values);
 int otx_render_command_run(const otx_flag_values *values);
 int otx_regress_command_run(const otx_flag_values *values);
 int otx_plan_command_run(const otx_flag_values *values);

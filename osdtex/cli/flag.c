@@ -10,7 +10,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_OUTPUT] =
         {"output", 'o', OTX_FLAG_GROUP_MAIN, "FILE",
          "what to write; map: DIR/NAME.obj, with NAME.mtl and NAME.exr beside "
-         "it; render: a .png or .exr; tiles: an .exr; bake: the name of the "
+         "it; render: a .png or .exr; field: those or a .csv; tiles: an .exr; "
+         "bake: the name of the "
          "other files, DIR/NAME.obj; regress and plan: a "
          "folder"},
     [OTX_FLAG_METHOD] =
@@ -40,6 +41,20 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"constraints", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "directions and sizes that the texture is to have at faces of the "
          "cage or at points: a .json or .csv"},
+    [OTX_FLAG_FOLLOW] =
+        {"follow", 0, OTX_FLAG_GROUP_MAIN, "WHAT",
+         "what directions follow where no constraint says otherwise: smooth, "
+         "up, edges (the cage's edge loops), curvature (least bending), or an "
+         "axis X,Y,Z (default: what the file of constraints says, else "
+         "smooth)"},
+    [OTX_FLAG_SYMMETRY] =
+        {"symmetry", 0, OTX_FLAG_GROUP_MAIN, "1|2|4",
+         "a field of arrows, of lines or of crosses (default: what the file "
+         "of constraints says, else 2)"},
+    [OTX_FLAG_OCTAVES] =
+        {"octaves", 0, OTX_FLAG_GROUP_MAIN, "O",
+         "how far the texture's size gives way so that rows can follow the "
+         "surface's curvature (default 0: not at all)"},
     [OTX_FLAG_EXEMPLAR_CLASS] =
         {"exemplar-class", 0, OTX_FLAG_GROUP_MAIN, "NAME",
          "what the exemplar is: isotropic, directional, weak-lattice or "

@@ -231,6 +231,7 @@ parse_fields(job *j)
     const char *text = j->values->text[OTX_FLAG_GENERATORS];
 
     j->map_options.constraints = j->values->text[OTX_FLAG_CONSTRAINTS];
+    j->map_options.follow = j->values->text[OTX_FLAG_FOLLOW];
     j->map_options.exemplar_class = j->values->text[OTX_FLAG_EXEMPLAR_CLASS];
     if (!text || otx_value_reals(text, 4, j->map_options.generators))
         return true;

@@ -24,7 +24,8 @@ static const otx_flag_id matter[] = {
     OTX_FLAG_BAKE,        OTX_FLAG_BAKE_UVS,
     OTX_FLAG_RESOLUTION,  OTX_FLAG_TEXELS_PER_UNIT,
     OTX_FLAG_MARGIN,      OTX_FLAG_SEAM_BLEND,
-    OTX_FLAG_EXTRA,       OTX_FLAG_PREVIEW_PNG};
+    OTX_FLAG_EXTRA,       OTX_FLAG_PREVIEW_PNG,
+    OTX_FLAG_FOLLOW,      OTX_FLAG_SHOW};
 
 static bool
 hash_file(const char *path, char text[OSDTEX_HASH_BYTES])

@@ -2,6 +2,8 @@
 #include "field/constraint.h"
 
 #include "base/queue.h"
+#include "field/attract.h"
+#include "field/nested.h"
 
 /* Largest factor on the texture's size, either way. */
 static const double SCALE_MAX = 16.0;
@@ -47,6 +49,8 @@ check(
     if (item->scale != 0.0 &&
         !(item->scale >= 1.0 / SCALE_MAX && item->scale <= SCALE_MAX))
         return refuse(run, set, index, "has a scale outside 1/16 .. 16");
+    if (item->has_material && !(item->material >= 0.0 && item->material <= 1.0))
+        return refuse(run, set, index, "has a material outside 0 .. 1");
     return OSDTEX_OK;
 }
 
@@ -70,41 +74,201 @@ nearest_face(const otx_connection *c, otx_vec3 point)
     return face;
 }
 
+/* The faces that a constraint may hold: those of [first, end) that hold_face
+ * confirms. */
+typedef struct grip
+{
+    const otx_constraint *item;
+    int32_t first, end;
+    int32_t nearest; /* to a point; -1 */
+} grip;
+
+static grip
+take_hold(const otx_connection *c, const otx_constraint *item)
+{
+    const otx_level *levels = c->surface->levels;
+    grip g = {item, item->face, item->face + 1, -1};
+
+    if (item->face < 0)
+        return (grip){
+            item, 0, c->level->face_count, nearest_face(c, item->point)};
+    /* Children are contiguous, and so are all descendants. */
+    for (int32_t l = 0; l < c->level_index; ++l)
+    {
+        g.first = levels[l].face_child_first[g.first];
+        g.end = levels[l].face_child_first[g.end];
+    }
+    return g;
+}
+
 static bool
-holds(
-    const otx_connection *c, const otx_constraint *item, int32_t nearest,
-    int32_t face)
+holds(const otx_connection *c, const grip *g, int32_t face)
 {
     if (c->level->face_hole[face])
         return false;
-    if (item->face >= 0)
-        return c->level->face_cage[face] == item->face;
-    return face == nearest ||
-           otx_vec3_length(otx_vec3_sub(c->centres[face], item->point)) <=
-               item->radius;
+    if (g->item->face >= 0 || face == g->nearest)
+        return true;
+    return otx_vec3_length(otx_vec3_sub(c->centres[face], g->item->point)) <=
+           g->item->radius;
+}
+
+static int32_t
+count_held(const otx_connection *c, const grip *g)
+{
+    int32_t count = 0;
+
+    for (int32_t f = g->first; f < g->end; ++f)
+        count += holds(c, g, f);
+    return count;
+}
+
+/* -- directions ---------------------------------------------------------- */
+
+typedef struct pinning
+{
+    otx_run *run;
+    const otx_constraint_set *set;
+    const otx_connection *c;
+    int32_t symmetry;
+    const uint8_t *effect; /* [face_count] 1 looked at; NULL all */
+    int32_t *owner; /* [face_count] constraint that holds a face, -1 none */
+    otx_direction_pin *pins;
+    int32_t count;
+} pinning;
+
+/* Says so where two constraints want different things of one face. */
+static void
+compare_pins(const pinning *p, int32_t index, int32_t face)
+{
+    const int32_t other = p->owner[face];
+    otx_vec2 z[2];
+
+    if (other < 0 || other == index)
+        return;
+    for (int k = 0; k < 2; ++k)
+        z[k] = otx_direction_power(
+            otx_connection_project(
+                p->c, face,
+                otx_vec3_unit(p->set->items[k ? index : other].direction)),
+            p->symmetry);
+    if (otx_vec2_dot(z[0], z[1]) <
+        0.98 * otx_vec2_length(z[0]) * otx_vec2_length(z[1]))
+        otx_note(
+            p->run, OSDTEX_SEVERITY_WARNING, "field",
+            (otx_where){p->set->path, 0, p->c->level->face_cage[face], -1},
+            "constraint %d contradicts constraint %d; the later one holds",
+            (int)index + 1, (int)other + 1);
 }
 
 /* Pins the faces of one constraint; those on which its direction stands
  * upright are left out, unless all are. */
 static otx_status
-pin_item(
-    otx_run *run, const otx_constraint_set *set, const otx_connection *c,
-    int32_t index, otx_direction_pin *pins, int32_t *count)
+pin_item(pinning *p, int32_t index)
 {
-    const otx_constraint *item = &set->items[index];
-    const int32_t nearest = item->face < 0 ? nearest_face(c, item->point) : -1;
-    const int32_t before = *count;
+    const otx_constraint *item = &p->set->items[index];
+    const grip g = take_hold(p->c, item);
+    const int32_t before = p->count;
+    bool any = false;
 
-    for (int32_t f = 0; f < c->level->face_count; ++f)
-        if (holds(c, item, nearest, f) &&
-            otx_vec2_length(otx_connection_project(
-                c, f, otx_vec3_unit(item->direction))) > 0.05)
-            pins[(*count)++] = (otx_direction_pin){f, item->direction};
-    if (*count == before)
+    for (int32_t f = g.first; f < g.end; ++f)
+    {
+        if ((p->effect && !p->effect[f]) || !holds(p->c, &g, f))
+            continue;
+        any = true;
+        if (!(otx_vec2_length(otx_connection_project(
+                  p->c, f, otx_vec3_unit(item->direction))) > 0.05))
+            continue;
+        compare_pins(p, index, f);
+        p->owner[f] = index;
+        p->pins[p->count++] = (otx_direction_pin){f, item->direction};
+    }
+    if (any && p->count == before)
         return refuse(
-            run, set, index,
+            p->run, p->set, index,
             "has a direction that stands upright on the surface; give one "
             "along it");
+    return OSDTEX_OK;
+}
+
+static otx_status
+pin_all(pinning *p)
+{
+    const int32_t faces = p->c->level->face_count;
+    int64_t count = 0;
+
+    for (int32_t i = 0; i < p->set->count; ++i)
+    {
+        grip g;
+
+        OTX_TRY(check(p->run, p->set, p->c, i));
+        if (!p->set->items[i].has_direction)
+            continue;
+        g = take_hold(p->c, &p->set->items[i]);
+        count += count_held(p->c, &g);
+    }
+    if (count > INT32_MAX)
+        return otx_fail(
+            p->run, OSDTEX_ERROR_LIMIT, "field",
+            (otx_where){p->set->path, 0, -1, -1},
+            "the constraints hold too many faces; give fewer points or smaller "
+            "radii");
+    p->pins = OTX_NEW(p->run->arena, otx_direction_pin, count);
+    p->owner = OTX_NEW(p->run->arena, int32_t, faces);
+    if (!p->pins || !p->owner)
+        return otx_fail_memory(p->run, "field");
+    for (int32_t f = 0; f < faces; ++f)
+        p->owner[f] = -1;
+    for (int32_t i = 0; i < p->set->count; ++i)
+        if (p->set->items[i].has_direction)
+            OTX_TRY(pin_item(p, i));
+    return OSDTEX_OK;
+}
+
+/* What attracts the whole field. Edges and curvature have several ways: that
+ * nearest to the field without them is taken. */
+static otx_status
+attract(
+    otx_run *run, const otx_constraint_set *set, const otx_connection *c,
+    otx_direction_request *q)
+{
+    const bool needs_near =
+        (set->follow == OTX_FOLLOW_EDGES && q->symmetry != 4) ||
+        (set->follow == OTX_FOLLOW_CURVATURE && q->symmetry == 1);
+    otx_direction near;
+    otx_vec2 *pull = NULL;
+
+    if (needs_near)
+        OTX_TRY(otx_nested_solve(run, c, q, &near));
+    if (set->follow == OTX_FOLLOW_AXIS)
+        OTX_TRY(otx_attract_axis(run, c, q->symmetry, set->axis, &pull));
+    if (set->follow == OTX_FOLLOW_EDGES)
+        OTX_TRY(otx_attract_edges(
+            run, c, q->symmetry, needs_near ? &near : NULL, &pull));
+    if (set->follow == OTX_FOLLOW_CURVATURE)
+        OTX_TRY(otx_attract_curvature(
+            run, c, q->symmetry, needs_near ? &near : NULL, &pull));
+    q->pull = pull;
+    q->pull_length = set->follow_length > 0.0
+                         ? set->follow_length
+                         : 0.05 * c->surface->cage->diagonal;
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_constraint_hold(
+    otx_run *run, const otx_constraint_set *set, const otx_connection *c,
+    const uint8_t *effect, otx_direction_request *out)
+{
+    pinning p = {
+        .run = run,
+        .set = set,
+        .c = c,
+        .symmetry = out->symmetry,
+        .effect = effect};
+
+    OTX_TRY(pin_all(&p));
+    out->pins = p.pins;
+    out->pin_count = p.count;
     return OSDTEX_OK;
 }
 
@@ -113,32 +277,97 @@ otx_constraint_pins(
     otx_run *run, const otx_constraint_set *set, const otx_connection *c,
     otx_direction_request *out)
 {
-    otx_direction_pin *pins;
-    int32_t directions = 0, count = 0;
-
     if (!set)
         return OSDTEX_OK;
+    if (set->symmetry > 0)
+        out->symmetry = set->symmetry;
+    if (set->follow == OTX_FOLLOW_AXIS &&
+        (!is_finite(set->axis) || !(otx_vec3_length(set->axis) > 0.0)))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "field",
+            (otx_where){set->path, 0, -1, -1},
+            "the axis to follow is zero or not finite");
+    OTX_TRY(otx_constraint_hold(run, set, c, NULL, out));
+    return attract(run, set, c, out);
+}
+
+/* -- scale and material -------------------------------------------------- */
+
+/* What a constraint locks of a scalar field; false: nothing. */
+static bool
+value_of(const otx_constraint *item, otx_constraint_kind kind, double *out)
+{
+    if (kind == OTX_CONSTRAINT_MATERIAL)
+    {
+        *out = item->material;
+        return item->has_material;
+    }
+    *out = item->scale > 0.0 ? -log(item->scale) : 0.0;
+    return item->scale > 0.0;
+}
+
+/* Locks of all vertices of the faces that are held. */
+static otx_status
+lock_values(
+    otx_run *run, const otx_constraint_set *set, const otx_connection *c,
+    otx_constraint_kind kind, otx_scale_lock **out, int32_t *count)
+{
+    const otx_level *level = c->level;
+    int64_t capacity = 0;
+    double v;
+
+    *count = 0;
     for (int32_t i = 0; i < set->count; ++i)
     {
         OTX_TRY(check(run, set, c, i));
-        directions += set->items[i].has_direction;
+        if (value_of(&set->items[i], kind, &v))
+        {
+            const grip g = take_hold(c, &set->items[i]);
+
+            for (int32_t f = g.first; f < g.end; ++f)
+                if (holds(c, &g, f))
+                    capacity += otx_level_face_size(level, f);
+        }
     }
-    pins = OTX_NEW(
-        run->arena, otx_direction_pin,
-        (int64_t)directions * c->level->face_count);
-    if (!pins)
+    if (capacity > INT32_MAX)
+        return otx_fail(
+            run, OSDTEX_ERROR_LIMIT, "field", (otx_where){set->path, 0, -1, -1},
+            "the constraints hold too many vertices; give fewer points or "
+            "smaller radii");
+    *out = OTX_NEW(run->scratch, otx_scale_lock, capacity);
+    if (!*out)
         return otx_fail_memory(run, "field");
     for (int32_t i = 0; i < set->count; ++i)
-        if (set->items[i].has_direction)
-            OTX_TRY(pin_item(run, set, c, i, pins, &count));
-    out->pins = pins;
-    out->pin_count = count;
-    out->guide = set->axis;
-    out->guide_length = set->axis_length > 0.0
-                            ? set->axis_length
-                            : 0.05 * c->surface->cage->diagonal;
-    if (set->symmetry > 0)
-        out->symmetry = set->symmetry;
+    {
+        if (!value_of(&set->items[i], kind, &v))
+            continue;
+
+        const grip g = take_hold(c, &set->items[i]);
+
+        for (int32_t f = g.first; f < g.end; ++f)
+            for (int32_t k = level->face_first[f];
+                 holds(c, &g, f) && k < level->face_first[f + 1]; ++k)
+                (*out)[(*count)++] = (otx_scale_lock){level->face_verts[k], v};
+    }
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_constraint_interpolate(
+    otx_run *run, const otx_constraint_set *set, const otx_connection *c,
+    otx_constraint_kind kind, const uint8_t *effect, double *values)
+{
+    const double most = kind == OTX_CONSTRAINT_SCALE ? log(SCALE_MAX) : 1.0;
+    const double least = kind == OTX_CONSTRAINT_SCALE ? -most : 0.0;
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    otx_scale_lock *locks;
+    int32_t count;
+
+    OTX_TRY(lock_values(run, set, c, kind, &locks, &count));
+    if (count > 0)
+        OTX_TRY(otx_scale_smooth(
+            run, c, locks, count, least, most, 0.0, effect, values));
+    otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }
 
@@ -147,41 +376,19 @@ otx_constraint_scale(
     otx_run *run, const otx_constraint_set *set, const otx_connection *c,
     double *log_scale)
 {
-    const otx_level *level = c->level;
-    otx_scale_lock *locks;
-    double *values;
-    int32_t scales = 0, count = 0;
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const int32_t count = c->level->vert_count;
+    double *values = OTX_ZNEW(run->scratch, double, count);
 
-    for (int32_t i = 0; set && i < set->count; ++i)
-    {
-        OTX_TRY(check(run, set, c, i));
-        scales += set->items[i].scale > 0.0;
-    }
-    if (scales == 0)
-        return OSDTEX_OK;
-    locks = OTX_NEW(
-        run->scratch, otx_scale_lock, (int64_t)scales * level->corner_count);
-    values = OTX_ZNEW(run->scratch, double, level->vert_count);
-    if (!locks || !values)
+    if (!values)
         return otx_fail_memory(run, "field");
-    for (int32_t i = 0; i < set->count; ++i)
-    {
-        const otx_constraint *item = &set->items[i];
-        const int32_t nearest =
-            item->face < 0 ? nearest_face(c, item->point) : -1;
-
-        for (int32_t f = 0; item->scale > 0.0 && f < level->face_count; ++f)
-            for (int32_t k = level->face_first[f];
-                 k < level->face_first[f + 1] && holds(c, item, nearest, f);
-                 ++k)
-                locks[count++] =
-                    (otx_scale_lock){level->face_verts[k], -log(item->scale)};
-    }
-    OTX_TRY(otx_scale_smooth(
-        run, c, locks, count, -log(SCALE_MAX), log(SCALE_MAX), 0.0, NULL,
-        values));
-    for (int32_t v = 0; v < level->vert_count; ++v)
+    if (!set)
+        return OSDTEX_OK;
+    OTX_TRY(otx_constraint_interpolate(
+        run, set, c, OTX_CONSTRAINT_SCALE, NULL, values));
+    for (int32_t v = 0; v < count; ++v)
         log_scale[v] += values[v];
+    otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }
 
@@ -220,13 +427,13 @@ otx_constraint_effect(
     uint8_t *effect = OTX_ZNEW(run->arena, uint8_t, c->level->face_count);
     otx_queue queue = otx_queue_make(run->scratch);
     otx_queue_entry entry;
-    int32_t nearest;
     bool fine = effect != NULL;
+    grip g;
 
     OTX_TRY(check(run, &set, c, 0));
-    nearest = constraint->face < 0 ? nearest_face(c, constraint->point) : -1;
-    for (int32_t f = 0; fine && f < c->level->face_count; ++f)
-        if (holds(c, constraint, nearest, f))
+    g = take_hold(c, constraint);
+    for (int32_t f = g.first; fine && f < g.end; ++f)
+        if (holds(c, &g, f))
             fine = otx_queue_push(&queue, 0.0, f);
     while (fine && otx_queue_pop(&queue, &entry))
     {

@@ -18,15 +18,27 @@ typedef struct otx_constraint
     bool has_direction;
     otx_vec3 direction;
     double scale; /* factor on the texture's size; 0 says nothing */
+    bool has_material;
+    double material; /* 0 .. 1 */
 } otx_constraint;
+
+/* What attracts the field where no constraint says otherwise. */
+typedef enum otx_follow
+{
+    OTX_FOLLOW_NOTHING, /* the smoothest field */
+    OTX_FOLLOW_AXIS,
+    OTX_FOLLOW_EDGES,
+    OTX_FOLLOW_CURVATURE
+} otx_follow;
 
 typedef struct otx_constraint_set
 {
-    const char *path;   /* for messages; NULL none */
-    int32_t symmetry;   /* 1, 2, 4; 0: the exemplar's */
-    otx_vec3 axis;      /* attracts all faces; zero none */
-    double axis_length; /* over which it gives way, scene units; 0: a twentieth
-                         * of the diagonal */
+    const char *path; /* for messages; NULL none */
+    int32_t symmetry; /* 1, 2, 4; 0: the exemplar's */
+    otx_follow follow;
+    otx_vec3 axis;        /* of OTX_FOLLOW_AXIS */
+    double follow_length; /* over which it gives way, scene units; 0: a
+                           * twentieth of the diagonal */
     int32_t count;
     const otx_constraint *items;
 } otx_constraint_set;
@@ -34,13 +46,36 @@ typedef struct otx_constraint_set
 /* Turns constraints into pins on the faces of a level, in run->arena. `set`
  * may be NULL. ARGUMENT, naming the constraint, for what cannot be held: a
  * face that is not there or a hole, no finite numbers, a direction upright on
- * the surface. */
+ * the surface. Contradictions are warnings: the later constraint holds. */
 otx_status otx_constraint_pins(
     otx_run *run, const otx_constraint_set *set,
     const otx_connection *connection, otx_direction_request *out);
 
-/* Adds -ln of the asked scale factors, smoothly interpolated, to `log_scale`
- * ([vert_count]). */
+/* The pins alone, on the faces of `effect` ([face_count]; NULL: all). */
+otx_status otx_constraint_hold(
+    otx_run *run, const otx_constraint_set *set,
+    const otx_connection *connection, const uint8_t *effect,
+    otx_direction_request *out);
+
+/* A scalar field on the vertices of a level. */
+typedef enum otx_constraint_kind
+{
+    OTX_CONSTRAINT_SCALE,   /* -ln of the asked factors, +-ln 16 */
+    OTX_CONSTRAINT_MATERIAL /* 0 .. 1 */
+} otx_constraint_kind;
+
+/* What is asked of a scalar field, smoothly interpolated; 0 on components of
+ * which nothing is asked.
+ *
+ *   effect  [vert_count], 1 free, others keep `values`; NULL: all are free
+ *   values  [vert_count] in and out; left alone where the set asks nothing */
+otx_status otx_constraint_interpolate(
+    otx_run *run, const otx_constraint_set *set,
+    const otx_connection *connection, otx_constraint_kind kind,
+    const uint8_t *effect, double *values);
+
+/* Adds -ln of the asked scale factors to `log_scale` ([vert_count]). `set` may
+ * be NULL. */
 otx_status otx_constraint_scale(
     otx_run *run, const otx_constraint_set *set,
     const otx_connection *connection, double *log_scale);

@@ -20,7 +20,7 @@ static const double SETTLED = 1e-4;
  * round smooths, about the radius of a sphere of that area. */
 static const double SMOOTHING = 4.0 * OTX_PI;
 
-/* A part of the guide shorter than this says nothing. */
+/* A part along a face that is shorter than this says nothing. */
 static const double UPRIGHT = 1e-3;
 
 typedef struct solver
@@ -34,14 +34,13 @@ typedef struct solver
     int32_t size;    /* unknowns */
     double tau;      /* 1 / length^2 */
     double *mass;    /* [size] areas */
-    double *pull;    /* [2 size] what pins, locked faces and guide add */
+    double *pull;    /* [2 size] what pins, locked faces and pull add */
     double *z;       /* [2 size] */
-    otx_sparse *lhs; /* Laplacian + tau mass + guide */
+    otx_sparse *lhs; /* Laplacian + tau mass + pull */
 } solver;
 
-/* s-th power of a vector of the plane, its length kept. */
-static otx_vec2
-raise(otx_vec2 v, int32_t symmetry)
+otx_vec2
+otx_direction_power(otx_vec2 v, int32_t symmetry)
 {
     const double length = otx_vec2_length(v);
     const otx_vec2 unit =
@@ -78,48 +77,20 @@ otx_direction_turn(const otx_direction *field, int32_t edge)
 
 /* -- assembling ---------------------------------------------------------- */
 
-static otx_status
-bad_pin(const solver *s, int32_t pin, const char *what)
-{
-    const int32_t face = s->request->pins[pin].face;
-    const bool known = face >= 0 && face < s->c->level->face_count;
-
-    return otx_fail(
-        s->run, OSDTEX_ERROR_ARGUMENT, "field",
-        (otx_where){
-            s->c->surface->cage->path, 0,
-            known ? s->c->level->face_cage[face] : -1, -1},
-        "direction constraint %d %s", (int)pin + 1, what);
-}
-
 /* Locks the pinned faces to their vectors. */
-static otx_status
+static void
 lock_pins(solver *s)
 {
     for (int32_t p = 0; p < s->request->pin_count; ++p)
     {
         const otx_direction_pin *pin = &s->request->pins[p];
-        otx_vec2 flat;
-
-        if (pin->face < 0 || pin->face >= s->c->level->face_count)
-            return bad_pin(s, p, "names a face that is not there");
-        if (s->c->level->face_hole[pin->face])
-            return bad_pin(s, p, "lies on a hole");
-        if (!isfinite(pin->vector.x) || !isfinite(pin->vector.y) ||
-            !isfinite(pin->vector.z))
-            return bad_pin(s, p, "has a vector that is not finite");
-        flat =
+        const otx_vec2 flat =
             otx_connection_project(s->c, pin->face, otx_vec3_unit(pin->vector));
-        if (!(otx_vec2_length(flat) > UPRIGHT))
-            return bad_pin(
-                s, p,
-                "has a vector that stands upright on the surface; give one "
-                "along it");
+
         s->row[pin->face] = -1;
-        s->field->powers[pin->face] =
-            unit_or(raise(flat, s->request->symmetry), (otx_vec2){1, 0});
+        s->field->powers[pin->face] = unit_or(
+            otx_direction_power(flat, s->request->symmetry), (otx_vec2){1, 0});
     }
-    return OSDTEX_OK;
 }
 
 static otx_status
@@ -134,7 +105,7 @@ number_unknowns(solver *s, const uint8_t *effect)
     for (int32_t f = 0; f < count; ++f)
         s->row[f] =
             s->c->level->face_hole[f] || (effect && !effect[f]) ? -1 : 0;
-    OTX_TRY(lock_pins(s));
+    lock_pins(s);
     for (int32_t f = 0; f < count; ++f)
         if (s->row[f] >= 0)
         {
@@ -180,28 +151,25 @@ add_edge(solver *s, int32_t edge, otx_sparse_entry *entries)
     return count;
 }
 
-/* The diagonal of an unknown, and the guide's pull: as strong as the vector's
- * part in the face is long. */
+/* The diagonal of an unknown, and what attracts it: as strongly as it is sure.
+ */
 static otx_sparse_entry
 add_face(solver *s, int32_t row)
 {
     const otx_direction_request *q = s->request;
     const int32_t face = s->faces[row];
     const double area = fmax(s->c->areas[face], 1e-12 * s->c->area);
-    const otx_vec2 flat =
-        otx_connection_project(s->c, face, otx_vec3_unit(q->guide));
-    const double length = otx_vec2_length(flat);
     double weight = 0.0;
 
     s->mass[row] = area;
-    if (length > UPRIGHT)
+    if (q->pull)
     {
-        const otx_vec2 z = raise(flat, q->symmetry);
+        const otx_vec2 z = q->pull[face];
 
-        weight = area / (q->guide_length * q->guide_length);
+        weight = area / (q->pull_length * q->pull_length);
         s->pull[2 * row] += weight * z.x;
         s->pull[2 * row + 1] += weight * z.y;
-        weight *= length;
+        weight *= otx_vec2_length(z);
     }
     return (otx_sparse_entry){row, row, weight + s->tau * area, 0.0};
 }
@@ -254,10 +222,10 @@ leaning(const solver *s, int32_t face)
         flat, otx_vec2_scale(
                   0.01, otx_connection_project(
                             s->c, face, (otx_vec3){up.y, up.z, up.x})));
-    return raise(flat, s->request->symmetry);
+    return otx_direction_power(flat, s->request->symmetry);
 }
 
-/* Lets pins and guide have their say before the first rounds: what they reach
+/* Lets pins and pull have their say before the first rounds: what they reach
  * follows them, the rest keeps the smoothest field. */
 static otx_status
 follow_pull(solver *s)
@@ -363,13 +331,52 @@ check(otx_run *run, const otx_direction_request *q)
             run, OSDTEX_ERROR_ARGUMENT, "field", OTX_NOWHERE,
             "a direction field has symmetry 1, 2 or 4, not %d",
             (int)q->symmetry);
-    if (!isfinite(otx_vec3_length(q->guide)) ||
-        !isfinite(otx_vec3_length(q->lean)) ||
-        (otx_vec3_length(q->guide) > 0.0 && !(q->guide_length > 0.0)))
+    if (!isfinite(otx_vec3_length(q->lean)) ||
+        (q->pull && !(q->pull_length > 0.0)))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "field", OTX_NOWHERE,
-            "the axis of a direction field is a finite vector, and the length "
-            "over which it gives way is positive");
+            "the length over which what attracts a direction field gives way "
+            "is positive");
+    return OSDTEX_OK;
+}
+
+/* NULL where a pin can be held. */
+static const char *
+fault_of_pin(const otx_connection *c, const otx_direction_pin *pin)
+{
+    if (pin->face < 0 || pin->face >= c->level->face_count)
+        return "names a face that is not there";
+    if (c->level->face_hole[pin->face])
+        return "lies on a hole";
+    if (!isfinite(pin->vector.x) || !isfinite(pin->vector.y) ||
+        !isfinite(pin->vector.z))
+        return "has a vector that is not finite";
+    if (!(otx_vec2_length(otx_connection_project(
+              c, pin->face, otx_vec3_unit(pin->vector))) > UPRIGHT))
+        return "has a vector that stands upright on the surface; give one "
+               "along it";
+    return NULL;
+}
+
+otx_status
+otx_direction_check(
+    otx_run *run, const otx_connection *c, const otx_direction_request *q)
+{
+    OTX_TRY(check(run, q));
+    for (int32_t p = 0; p < q->pin_count; ++p)
+    {
+        const int32_t face = q->pins[p].face;
+        const bool known = face >= 0 && face < c->level->face_count;
+        const char *fault = fault_of_pin(c, &q->pins[p]);
+
+        if (fault)
+            return otx_fail(
+                run, OSDTEX_ERROR_ARGUMENT, "field",
+                (otx_where){
+                    c->surface->cage->path, 0,
+                    known ? c->level->face_cage[face] : -1, -1},
+                "direction constraint %d %s", (int)p + 1, fault);
+    }
     return OSDTEX_OK;
 }
 
@@ -383,7 +390,7 @@ otx_direction_solve(
     solver s = {.run = run, .c = connection, .request = request, .field = out};
     otx_status status;
 
-    OTX_TRY(check(run, request));
+    OTX_TRY(otx_direction_check(run, connection, request));
     *out = (otx_direction){
         connection, request->symmetry, OTX_NEW(run->arena, otx_vec2, count)};
     if (!out->powers)
@@ -405,7 +412,7 @@ otx_direction_edit(
         .run = run, .c = field->connection, .request = request, .field = field};
     otx_status status;
 
-    OTX_TRY(check(run, request));
+    OTX_TRY(otx_direction_check(run, field->connection, request));
     if (request->symmetry != field->symmetry)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "field", OTX_NOWHERE,
@@ -430,9 +437,11 @@ take_vectors(
         /* Written so that NaN is silent too. */
         const bool speaks = otx_vec2_length(flat) > UPRIGHT;
 
-        field->powers[f] =
-            speaks ? unit_or(raise(flat, field->symmetry), (otx_vec2){1, 0})
-                   : (otx_vec2){1, 0};
+        field->powers[f] = speaks
+                               ? unit_or(
+                                     otx_direction_power(flat, field->symmetry),
+                                     (otx_vec2){1, 0})
+                               : (otx_vec2){1, 0};
         silent[f] = !speaks && !c->level->face_hole[f];
         count += silent[f];
     }
@@ -480,11 +489,135 @@ otx_direction_refine(
         for (int32_t l = finer->level_index; l > from; --l)
             parent = surface->levels[l].face_parent[parent];
         out->powers[f] = unit_or(
-            raise(
+            otx_direction_power(
                 otx_connection_project(
                     finer, f, otx_direction_vector(field, parent)),
                 field->symmetry),
             (otx_vec2){1, 0});
     }
+    return OSDTEX_OK;
+}
+
+/* Adds what the faces below say to the powers of their ancestors. */
+static void
+gather(
+    const otx_direction *field, const otx_connection *coarser, otx_vec2 *powers)
+{
+    const otx_connection *finer = field->connection;
+
+    for (int32_t f = 0; f < finer->level->face_count; ++f)
+    {
+        int32_t face = f;
+
+        for (int32_t l = finer->level_index; l > coarser->level_index; --l)
+            face = finer->surface->levels[l].face_parent[face];
+        powers[face] = otx_vec2_add(
+            powers[face],
+            otx_vec2_scale(
+                finer->areas[f],
+                otx_direction_power(
+                    otx_connection_project(
+                        coarser, face, otx_direction_vector(field, f)),
+                    field->symmetry)));
+    }
+}
+
+otx_status
+otx_direction_coarsen(
+    otx_run *run, const otx_direction *field, const otx_connection *coarser,
+    otx_direction *out)
+{
+    const int32_t count = coarser->level->face_count;
+
+    *out = (otx_direction){
+        coarser, field->symmetry, OTX_ZNEW(run->arena, otx_vec2, count)};
+    if (!out->powers)
+        return otx_fail_memory(run, "field");
+    gather(field, coarser, out->powers);
+    for (int32_t f = 0; f < count; ++f)
+        out->powers[f] = unit_or(out->powers[f], (otx_vec2){1, 0});
+    return OSDTEX_OK;
+}
+
+/* -- smoothing ----------------------------------------------------------- */
+
+/* What the faces of one round share. */
+typedef struct round_job
+{
+    const otx_direction *field;
+    const otx_direction_request *request;
+    const uint8_t *held;
+    const otx_vec2 *from;
+    otx_vec2 *to;
+} round_job;
+
+static otx_status
+smooth_face(void *context, int64_t index, otx_worker *worker)
+{
+    const round_job *job = context;
+    const otx_connection *c = job->field->connection;
+    const int32_t face = (int32_t)index;
+    const double s = job->field->symmetry;
+    otx_vec2 sum = {0, 0};
+    double weight = 0.0;
+
+    (void)worker;
+    job->to[face] = job->from[face];
+    if (job->held[face])
+        return OSDTEX_OK;
+    for (int32_t i = c->level->face_first[face];
+         i < c->level->face_first[face + 1]; ++i)
+    {
+        const int32_t e = c->level->face_edges[i];
+        const int32_t *faces = c->level->edge_faces + 2 * (size_t)e;
+        const bool first = faces[0] == face;
+
+        if (!c->inner[e])
+            continue;
+        weight += c->weights[e];
+        sum = otx_vec2_add(
+            sum, otx_vec2_scale(
+                     c->weights[e],
+                     otx_vec2_mul(
+                         otx_vec2_polar((first ? -s : s) * c->turns[e]),
+                         job->from[faces[first]])));
+    }
+    if (job->request->pull)
+        sum = otx_vec2_add(
+            sum, otx_vec2_scale(
+                     c->areas[face] / (job->request->pull_length *
+                                       job->request->pull_length),
+                     job->request->pull[face]));
+    /* Half of what it was damps the checkerboards of simultaneous rounds. */
+    sum = otx_vec2_add(sum, otx_vec2_scale(0.5 * weight, job->from[face]));
+    job->to[face] = unit_or(sum, job->from[face]);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_direction_smooth(
+    otx_run *run, const otx_direction_request *request, int32_t rounds,
+    otx_direction *field)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const int32_t count = field->connection->level->face_count;
+    otx_vec2 *other = OTX_NEW(run->scratch, otx_vec2, count);
+    uint8_t *held = OTX_NEW(run->scratch, uint8_t, count);
+    round_job job = {field, request, held, NULL, NULL};
+
+    if (!other || !held)
+        return otx_fail_memory(run, "field");
+    for (int32_t f = 0; f < count; ++f)
+        held[f] = field->connection->level->face_hole[f];
+    for (int32_t p = 0; p < request->pin_count; ++p)
+        held[request->pins[p].face] = 1;
+    /* An even number of rounds ends where it began. */
+    for (int32_t round = 0; round < 2 * ((rounds + 1) / 2); ++round)
+    {
+        job.from = round % 2 ? other : field->powers;
+        job.to = round % 2 ? field->powers : other;
+        OTX_TRY(otx_pool_for(run->pool, count, smooth_face, &job));
+    }
+    otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }

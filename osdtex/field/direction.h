@@ -8,7 +8,7 @@
  *     E(z) = sum over edges of w |z_g - e^(i s turn) z_f|^2.
  *
  * Its smallest eigenvector has singularities where the shape asks for them.
- * Pins hold faces to a direction; a guide pulls all faces towards one. The
+ * Pins hold faces to a direction; a pull attracts all faces to theirs. The
  * result is made unit by alternating smoothing and normalising [Viertel19],
  * which also lets close singularities of opposite index meet and vanish.
  *
@@ -34,10 +34,10 @@ typedef struct otx_direction_request
     int32_t pin_count;
     const otx_direction_pin *pins; /* of several on one face, the last holds */
 
-    /* A vector, projected into all faces, that attracts; zero: none. It gives
-     * way over about guide_length scene units, > 0. */
-    otx_vec3 guide;
-    double guide_length;
+    /* [face_count] what attracts, see attract.h; NULL: nothing. It gives way
+     * over about pull_length scene units, > 0. */
+    const otx_vec2 *pull;
+    double pull_length;
     /* Towards what the smoothest field leans where it may choose; zero: the
      * y axis. */
     otx_vec3 lean;
@@ -50,12 +50,17 @@ typedef struct otx_direction
     otx_vec2 *powers; /* [face_count] unit; (1, 0) on holes */
 } otx_direction;
 
-/* Solves for a field. Where neither pins nor a guide say anything about a
+/* Whether a request makes sense on a level. ARGUMENT for a symmetry other than
+ * 1, 2, 4, a pin on a hole or outside the level, or one whose vector is not
+ * finite or stands upright on its face. */
+otx_status otx_direction_check(
+    otx_run *run, const otx_connection *connection,
+    const otx_direction_request *request);
+
+/* Solves for a field. Where neither pins nor a pull say anything about a
  * component of the surface, it gets its smoothest field. In run->arena.
  *
- * ARGUMENT for a symmetry other than 1, 2, 4, a pin on a hole or outside the
- * level, or one whose vector is not finite or stands upright on its face;
- * NUMERIC, MEMORY, CANCELLED. */
+ * ARGUMENT as otx_direction_check; NUMERIC, MEMORY, CANCELLED. */
 otx_status otx_direction_solve(
     otx_run *run, const otx_connection *connection,
     const otx_direction_request *request, otx_direction *out);
@@ -72,6 +77,9 @@ otx_status otx_direction_edit(
 otx_status otx_direction_from_vectors(
     otx_run *run, const otx_connection *connection, int32_t symmetry,
     const otx_vec3 *vectors, otx_direction *out);
+
+/* The s-th power of a vector of a plane, its length kept. */
+otx_vec2 otx_direction_power(otx_vec2 vector, int32_t symmetry);
 
 /* Angle of one representative, in (-pi / s, pi / s] of the face's frame. */
 static inline double
@@ -94,6 +102,18 @@ otx_direction_vector(const otx_direction *field, int32_t face)
 /* How far the field turns across an inner edge, against parallel transport
  * from its first face to its second: radians in (-pi / s, pi / s]. */
 double otx_direction_turn(const otx_direction *field, int32_t edge);
+
+/* Turns every free face towards the mean of its neighbours and the pull,
+ * `rounds` times over: what is rough becomes smooth, what is smooth stays as
+ * it is. Pins hold. MEMORY. */
+otx_status otx_direction_smooth(
+    otx_run *run, const otx_direction_request *request, int32_t rounds,
+    otx_direction *field);
+
+/* Hands a field on to a coarser level: means over the faces below. MEMORY. */
+otx_status otx_direction_coarsen(
+    otx_run *run, const otx_direction *field, const otx_connection *coarser,
+    otx_direction *out);
 
 /* Hands a field on to a finer level of the same surface. MEMORY. */
 otx_status otx_direction_refine(

@@ -89,6 +89,25 @@ factor_laplacian(
     return OSDTEX_OK;
 }
 
+/* What locked neighbours say to the free vertices, beside GROUND's pull. */
+static void
+add_locked(
+    const otx_connection *c, const int32_t *row, const double *values,
+    double border, double *out)
+{
+    for (int32_t e = 0; e < c->level->edge_count; ++e)
+    {
+        const int32_t *v = c->level->edge_verts + 2 * (size_t)e;
+
+        if (!is_used(c, e))
+            continue;
+        for (int k = 0; k < 2; ++k)
+            if (row[v[k]] >= 0 && row[v[1 - k]] < 0)
+                out[row[v[k]]] +=
+                    vertex_weight(c, e, border) * values[v[1 - k]];
+    }
+}
+
 /* -- correction for curvature -------------------------------------------- */
 
 /* Divergence of J w: along the half-edge a -> b of the face on its left,
@@ -142,35 +161,111 @@ density_shift(const otx_connection *c, const double *f)
     return sum > 0.0 ? -0.5 * log(sum / c->area) : 0.0;
 }
 
+/* Solves for f at the vertices whose row is not -1. */
+static otx_status
+solve_correction(
+    otx_run *run, const otx_direction *field, const int32_t *row, int32_t size,
+    double *f)
+{
+    const otx_connection *c = field->connection;
+    double *divergence = OTX_ZNEW(run->scratch, double, c->level->vert_count);
+    double *x = OTX_NEW(run->scratch, double, size);
+    otx_sparse *lhs;
+
+    if (!divergence || !x)
+        return otx_fail_memory(run, "field");
+    if (size == 0)
+        return OSDTEX_OK;
+    add_divergence(field, divergence);
+    for (int32_t v = 0; v < c->level->vert_count; ++v)
+        if (row[v] >= 0)
+            x[row[v]] = divergence[v];
+    OTX_TRY(factor_laplacian(run, c, row, size, BORDER_CORRECTED, &lhs));
+    add_locked(c, row, f, BORDER_CORRECTED, x);
+    OTX_TRY(otx_sparse_solve(lhs, x, x));
+    for (int32_t v = 0; v < c->level->vert_count; ++v)
+        if (row[v] >= 0)
+            f[v] = x[row[v]];
+    return OSDTEX_OK;
+}
+
+/* Numbers the free vertices; how many there are. */
+static int32_t
+number_rows(int32_t *row, const uint8_t *effect, int32_t count)
+{
+    int32_t size = 0;
+
+    for (int32_t v = 0; v < count; ++v)
+        row[v] = !effect || effect[v] ? size++ : -1;
+    return size;
+}
+
+static double
+limited(double f, double limit)
+{
+    return limit > 0.0 ? limit * tanh(f / limit) : 0.0;
+}
+
+double
+otx_scale_value(const otx_scale_correction *c, int32_t vertex)
+{
+    return limited(c->raw[vertex] + c->shift_before, c->limit) + c->shift_after;
+}
+
+otx_status
+otx_scale_edit(
+    otx_run *run, const otx_direction *field, const uint8_t *effect,
+    otx_scale_correction *correction)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const int32_t count = field->connection->level->vert_count;
+    int32_t *row = OTX_NEW(run->scratch, int32_t, count);
+
+    if (!row)
+        return otx_fail_memory(run, "field");
+    if (!(correction->limit > 0.0))
+        return OSDTEX_OK;
+    OTX_TRY(solve_correction(
+        run, field, row, number_rows(row, effect, count), correction->raw));
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_scale_correct(
+    otx_run *run, const otx_direction *field, double limit,
+    otx_scale_correction *out)
+{
+    const otx_connection *c = field->connection;
+    const int32_t count = c->level->vert_count;
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    double *f = OTX_NEW(run->scratch, double, count);
+
+    *out = (otx_scale_correction){
+        .raw = OTX_ZNEW(run->arena, double, count), .limit = limit};
+    if (!f || !out->raw)
+        return otx_fail_memory(run, "field");
+    if (!(limit > 0.0))
+        return OSDTEX_OK;
+    OTX_TRY(otx_scale_edit(run, field, NULL, out));
+    out->shift_before = density_shift(c, out->raw);
+    for (int32_t v = 0; v < count; ++v)
+        f[v] = otx_scale_value(out, v);
+    out->shift_after = density_shift(c, f);
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_scale_solve(
     otx_run *run, const otx_direction *field, double limit, double **out)
 {
-    const otx_arena_mark mark = otx_arena_here(run->scratch);
-    const otx_connection *c = field->connection;
-    const int32_t count = c->level->vert_count;
-    double *f = OTX_ZNEW(run->arena, double, count);
-    int32_t *row = OTX_NEW(run->scratch, int32_t, count);
-    otx_sparse *lhs;
-    double shift;
+    otx_scale_correction correction;
 
-    *out = f;
-    if (!f || !row)
-        return otx_fail_memory(run, "field");
-    if (!(limit > 0.0))
-        return OSDTEX_OK;
-    for (int32_t v = 0; v < count; ++v)
-        row[v] = v;
-    add_divergence(field, f);
-    OTX_TRY(factor_laplacian(run, c, row, count, BORDER_CORRECTED, &lhs));
-    OTX_TRY(otx_sparse_solve(lhs, f, f));
-    shift = density_shift(c, f);
-    for (int32_t v = 0; v < count; ++v)
-        f[v] = limit * tanh((f[v] + shift) / limit);
-    shift = density_shift(c, f);
-    for (int32_t v = 0; v < count; ++v)
-        f[v] += shift;
-    otx_arena_release(run->scratch, mark);
+    OTX_TRY(otx_scale_correct(run, field, limit, &correction));
+    for (int32_t v = 0; v < field->connection->level->vert_count; ++v)
+        correction.raw[v] = otx_scale_value(&correction, v);
+    *out = correction.raw;
     return OSDTEX_OK;
 }
 
@@ -195,25 +290,6 @@ apply_locks(
         row[v] = -1;
     }
     return OSDTEX_OK;
-}
-
-/* What locked neighbours say to the free vertices, beside GROUND's pull. */
-static void
-add_locked(
-    const otx_connection *c, const int32_t *row, const double *values,
-    double *out)
-{
-    for (int32_t e = 0; e < c->level->edge_count; ++e)
-    {
-        const int32_t *v = c->level->edge_verts + 2 * (size_t)e;
-
-        if (!is_used(c, e))
-            continue;
-        for (int k = 0; k < 2; ++k)
-            if (row[v[k]] >= 0 && row[v[1 - k]] < 0)
-                out[row[v[k]]] +=
-                    vertex_weight(c, e, BORDER_INTERPOLATED) * values[v[1 - k]];
-    }
 }
 
 otx_status
@@ -243,7 +319,7 @@ otx_scale_smooth(
     if (size > 0)
     {
         OTX_TRY(factor_laplacian(run, c, row, size, BORDER_INTERPOLATED, &lhs));
-        add_locked(c, row, values, x);
+        add_locked(c, row, values, BORDER_INTERPOLATED, x);
         OTX_TRY(otx_sparse_solve(lhs, x, x));
     }
     for (int32_t v = 0; v < count; ++v)

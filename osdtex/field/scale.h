@@ -27,6 +27,30 @@
 otx_status otx_scale_solve(
     otx_run *run, const otx_direction *field, double limit, double **out);
 
+/* The same in parts, for fields that are edited. */
+typedef struct otx_scale_correction
+{
+    double *raw;  /* [vert_count] f without limit, up to a constant */
+    double limit; /* as above */
+    /* Restore the number of texels, before and after limiting; they stay when
+     * a part is edited, so that the rest keeps its size. */
+    double shift_before, shift_after;
+} otx_scale_correction;
+
+/* Solves for `raw` and the shifts; `raw` is made in run->arena. */
+otx_status otx_scale_correct(
+    otx_run *run, const otx_direction *field, double limit,
+    otx_scale_correction *out);
+
+/* Solves again for `raw` at the vertices of `effect` ([vert_count], 1 free);
+ * all others keep theirs. */
+otx_status otx_scale_edit(
+    otx_run *run, const otx_direction *field, const uint8_t *effect,
+    otx_scale_correction *correction);
+
+/* f at a vertex. */
+double otx_scale_value(const otx_scale_correction *correction, int32_t vertex);
+
 /* A value that is held at a vertex. */
 typedef struct otx_scale_lock
 {

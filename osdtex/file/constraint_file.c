@@ -106,16 +106,26 @@ read_item(
             if (!read_positive(value, &out->scale))
                 return refuse(run, path, index, key, "is a positive number");
         }
+        else if (strcmp(key, "material") == 0)
+        {
+            out->has_material = true;
+            out->material = json_number_value(value);
+            if (!json_is_number(value) ||
+                !(out->material >= 0.0 && out->material <= 1.0))
+                return refuse(run, path, index, key, "is a number from 0 to 1");
+        }
         else
             return refuse(
                 run, path, index, key,
-                "is not known; there are face, point, radius, direction and "
-                "scale");
+                "is not known; there are face, point, radius, direction, scale "
+                "and material");
     }
     if ((out->face >= 0) == has_point)
         return refuse(run, path, index, "face", "or \"point\" is needed, one");
-    if (!out->has_direction && out->scale == 0.0)
-        return refuse(run, path, index, "direction", "or \"scale\" is needed");
+    if (!out->has_direction && out->scale == 0.0 && !out->has_material)
+        return refuse(
+            run, path, index, "direction",
+            "or \"scale\" or \"material\" is needed");
     return OSDTEX_OK;
 }
 
@@ -136,6 +146,22 @@ read_items(otx_run *run, json_t *list, otx_constraint_file *out)
     return OSDTEX_OK;
 }
 
+static bool
+read_follow(const json_t *value, otx_constraint_file *out)
+{
+    static const char *const words[] = {"up", "edges", "curvature"};
+    const char *text = json_string_value(value);
+
+    for (int i = 0; text && i < 3; ++i)
+        if (strcmp(text, words[i]) == 0)
+        {
+            out->follow = words[i];
+            return true;
+        }
+    out->follow = "axis";
+    return read_vector(value, out->axis);
+}
+
 static otx_status
 read_root(otx_run *run, json_t *root, otx_constraint_file *out)
 {
@@ -149,14 +175,16 @@ read_root(otx_run *run, json_t *root, otx_constraint_file *out)
     {
         if (strcmp(key, "constraints") == 0)
             OTX_TRY(read_items(run, value, out));
-        else if (strcmp(key, "axis") == 0)
+        else if (strcmp(key, "follow") == 0)
         {
-            if (!read_vector(value, out->axis))
-                return refuse(run, out->path, -1, key, "is three numbers");
+            if (!read_follow(value, out))
+                return refuse(
+                    run, out->path, -1, key,
+                    "is three numbers, \"up\", \"edges\" or \"curvature\"");
         }
-        else if (strcmp(key, "axis-length") == 0)
+        else if (strcmp(key, "follow-length") == 0)
         {
-            if (!read_positive(value, &out->axis_length))
+            if (!read_positive(value, &out->follow_length))
                 return refuse(run, out->path, -1, key, "is a positive number");
         }
         else if (strcmp(key, "symmetry") == 0)
@@ -170,7 +198,7 @@ read_root(otx_run *run, json_t *root, otx_constraint_file *out)
         else
             return refuse(
                 run, out->path, -1, key,
-                "is not known; there are symmetry, axis, axis-length and "
+                "is not known; there are symmetry, follow, follow-length and "
                 "constraints");
     }
     return OSDTEX_OK;
@@ -240,18 +268,22 @@ read_row(
     otx_run *run, const otx_text *text, const double *n, int count,
     otx_constraint_line *out)
 {
-    if ((count != 4 && count != 5) || n[0] < 0.0 || n[0] >= INT32_MAX ||
-        n[0] != floor(n[0]) || !isfinite(n[1] + n[2] + n[3]) ||
-        (count == 5 && !(n[4] > 0.0 && isfinite(n[4]))))
+    if (count < 4 || n[0] < 0.0 || n[0] >= INT32_MAX || n[0] != floor(n[0]) ||
+        !isfinite(n[1] + n[2] + n[3]) ||
+        (count >= 5 && !(n[4] > 0.0 && isfinite(n[4]))) ||
+        (count == 6 && !(n[5] >= 0.0 && n[5] <= 1.0)))
         return otx_fail(
             run, OSDTEX_ERROR_FORMAT, stage, otx_text_where(text),
-            "a line is face,x,y,z or face,x,y,z,scale: a face of the cage from "
-            "0, a direction, and a positive factor");
+            "a line is face,x,y,z or face,x,y,z,scale or "
+            "face,x,y,z,scale,material: a face of the cage from 0, a "
+            "direction, a positive factor, and a number from 0 to 1");
     *out = (otx_constraint_line){
         .face = (int32_t)n[0],
         .has_direction = n[1] != 0.0 || n[2] != 0.0 || n[3] != 0.0,
         .direction = {n[1], n[2], n[3]},
-        .scale = count == 5 ? n[4] : 0.0};
+        .scale = count >= 5 ? n[4] : 0.0,
+        .has_material = count == 6,
+        .material = count == 6 ? n[5] : 0.0};
     return OSDTEX_OK;
 }
 
@@ -271,12 +303,12 @@ read_csv(otx_run *run, otx_text *text, otx_constraint_file *out)
     while (otx_text_next(text))
     {
         const otx_token line = otx_text_remainder(text);
-        double numbers[5];
+        double numbers[6];
         int count;
 
         if (line.begin == line.end || *line.begin == '#')
             continue;
-        count = read_numbers(line, numbers, 5);
+        count = read_numbers(line, numbers, 6);
         if (count >= 0 || !first)
             OTX_TRY(
                 read_row(run, text, numbers, count, &out->lines[out->count++]));

@@ -16,14 +16,17 @@ typedef struct otx_constraint_line
     bool has_direction;
     double direction[3];
     double scale; /* 0 says nothing */
+    bool has_material;
+    double material;
 } otx_constraint_line;
 
 typedef struct otx_constraint_file
 {
     const char *path;
-    int32_t symmetry; /* 0 none said */
-    double axis[3];
-    double axis_length; /* 0 none said */
+    int32_t symmetry;     /* 0 none said */
+    const char *follow;   /* "axis", "up", "edges" or "curvature"; NULL none */
+    double axis[3];       /* of "axis" */
+    double follow_length; /* 0 none said */
     int32_t count;
     otx_constraint_line *lines;
 } otx_constraint_file;

@@ -1,10 +1,7 @@
 /* guide.c -- a direction for every leaf face. */
 #include "method/guide.h"
 
-enum
-{
-    FACES_MAX = 24000 /* of the level that is solved on */
-};
+#include "field/nested.h"
 
 otx_status
 otx_guide_from_field(
@@ -37,15 +34,13 @@ otx_guide_make(
     otx_direction_request asked = {
         .symmetry = analysis->symmetry > 0 ? analysis->symmetry : 1};
     otx_connection *connection = OTX_NEW(run->arena, otx_connection, 1);
-    int32_t level = surface->level_count - 1;
     otx_direction field;
 
     if (!connection)
         return otx_fail_memory(run, "field");
-    while (level > 0 && surface->levels[level].face_count > FACES_MAX)
-        --level;
-    OTX_TRY(otx_connection_build(run, surface, level, connection));
+    OTX_TRY(otx_connection_build(
+        run, surface, surface->level_count - 1, connection));
     OTX_TRY(otx_constraint_pins(run, constraints, connection, &asked));
-    OTX_TRY(otx_direction_solve(run, connection, &asked, &field));
+    OTX_TRY(otx_nested_solve(run, connection, &asked, &field));
     return otx_guide_from_field(run, &field, analysis->angle, out);
 }

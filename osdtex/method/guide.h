@@ -10,8 +10,7 @@
 #include "mapping/mapping.h"
 
 /* Solves for the field that `constraints` ask for (NULL: the smoothest), of
- * the exemplar's symmetry. Works on a level of moderate size; leaves inherit.
- * In run->arena. */
+ * the exemplar's symmetry. In run->arena. */
 otx_status otx_guide_make(
     otx_run *run, const otx_surface *surface, const otx_analysis *analysis,
     const otx_constraint_set *constraints, otx_guide *out);

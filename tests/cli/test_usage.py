@@ -7,7 +7,7 @@ from program import CAGES, EXEMPLARS, ProgramTest, main
 
 CAGE = CAGES / "sphere.obj"
 EXEMPLAR = EXEMPLARS / "gravel_tile.png"
-COMMANDS = ("map", "render", "info", "methods", "help")
+COMMANDS = ("map", "render", "field", "info", "methods", "help")
 
 
 class Help(ProgramTest):

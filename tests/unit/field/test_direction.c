@@ -1,4 +1,5 @@
-/* test_direction.c -- smoothness, pins, guides, and Poincare-Hopf. */
+/* test_direction.c -- smoothness, pins, pulls, and Poincare-Hopf. */
+#include "field/attract.h"
 #include "field/singularity.h"
 #include "unit/field/test_field.h"
 
@@ -10,6 +11,18 @@ solve(otx_run *run, const field_surface *s, const otx_direction_request *q)
     if (otx_direction_solve(run, &s->connection, q, &field) != OSDTEX_OK)
         fail_msg("%s", test_last_message(run));
     return field;
+}
+
+static const otx_vec2 *
+pull_along(
+    otx_run *run, const field_surface *s, int32_t symmetry, otx_vec3 axis)
+{
+    otx_vec2 *pull;
+
+    assert_int_equal(
+        otx_attract_axis(run, &s->connection, symmetry, axis, &pull),
+        OSDTEX_OK);
+    return pull;
 }
 
 static int32_t
@@ -87,13 +100,15 @@ real_models_obey_poincare_hopf(void **state)
 }
 
 static void
-a_guide_on_a_plane_is_followed(void **state)
+a_pull_on_a_plane_is_followed(void **state)
 {
     otx_run *run = test_run_create();
     const otx_cage_input in = mesh_grid(run, 4);
     const field_surface *s = field_from_input(run, &in, 2);
     const otx_direction_request q = {
-        .symmetry = 1, .guide = {3, 4, 1}, .guide_length = 1.0};
+        .symmetry = 1,
+        .pull = pull_along(run, s, 1, (otx_vec3){3, 4, 1}),
+        .pull_length = 1.0};
     const otx_direction field = solve(run, s, &q);
 
     (void)state;
@@ -149,7 +164,9 @@ an_edit_keeps_the_rest(void **state)
     const field_surface *s = field_from_input(run, &in, 1);
     const int32_t count = s->connection.level->face_count;
     otx_direction_request q = {
-        .symmetry = 2, .guide = {1, 0, 0}, .guide_length = 1.0};
+        .symmetry = 2,
+        .pull = pull_along(run, s, 2, (otx_vec3){1, 0, 0}),
+        .pull_length = 1.0};
     otx_direction field = solve(run, s, &q);
     const otx_direction_pin pin = {0, {1, 1, 0}};
     uint8_t *effect = OTX_ZNEW(run->arena, uint8_t, count);
@@ -267,7 +284,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(indices_sum_to_the_euler_characteristic),
         cmocka_unit_test(real_models_obey_poincare_hopf),
-        cmocka_unit_test(a_guide_on_a_plane_is_followed),
+        cmocka_unit_test(a_pull_on_a_plane_is_followed),
         cmocka_unit_test(pins_hold_and_are_interpolated),
         cmocka_unit_test(an_edit_keeps_the_rest),
         cmocka_unit_test(refining_keeps_directions),

@@ -34,13 +34,14 @@ reads_json(void **state)
     assert_int_equal(
         read_text(
             run, "json",
-            "{\"symmetry\": 2, \"axis\": [0, 1, 0], \"axis-length\": 3,\n"
+            "{\"symmetry\": 2, \"follow\": [0, 1, 0], \"follow-length\": 3,\n"
             " \"constraints\": [{\"face\": 7, \"direction\": [1, 0, 0]},\n"
             "  {\"point\": [1, 2, 3.5], \"radius\": 0.5, \"scale\": 2}]}",
             &f),
         OSDTEX_OK);
     assert_int_equal(f.symmetry, 2);
-    assert_true(f.axis[1] == 1.0 && f.axis_length == 3.0);
+    assert_string_equal(f.follow, "axis");
+    assert_true(f.axis[1] == 1.0 && f.follow_length == 3.0);
     assert_int_equal(f.count, 2);
     assert_int_equal(f.lines[0].face, 7);
     assert_true(f.lines[0].has_direction && f.lines[0].scale == 0.0);
@@ -77,7 +78,11 @@ refuses_with_a_sentence(void **state)
         {"json", "[]", "object"},
         {"json", "{\"simmetry\": 1}", "\"simmetry\" is not known"},
         {"json", "{\"symmetry\": 3}", "1, 2 or 4"},
-        {"json", "{\"axis\": [1, 2]}", "three numbers"},
+        {"json", "{\"follow\": [1, 2]}", "three numbers"},
+        {"json", "{\"follow\": \"fur\"}", "curvature"},
+        {"json", "{\"constraints\": [{\"face\": 1, \"material\": 2}]}",
+         "0 to 1"},
+        {"csv", "0,1,0,0,1,7\n", "face,x,y,z"},
         {"json", "{\"constraints\": [{\"face\": 1}]}", "constraint 1"},
         {"json", "{\"constraints\": [{\"direction\": [1,0,0]}]}", "point"},
         {"json", "{\"constraints\": [{\"face\": -1, \"scale\": 1}]}", "from 0"},

@@ -1,4 +1,5 @@
 /* test_phase.c -- periodic coordinates where the answer is known. */
+#include "field/attract.h"
 #include "method/material/phase.h"
 #include "unit/field/test_field.h"
 
@@ -48,14 +49,20 @@ a_plane_gets_its_own_coordinates(void **state)
         const otx_cage_input in = mesh_grid(run, 6);
         const field_surface *s = field_from_input(run, &in, 2);
         const otx_level *level = s->connection.level;
-        const otx_direction_request q = {
-            .symmetry = symmetry, .guide = {0, 1, 0}, .guide_length = 1.0};
+        otx_direction_request q = {.symmetry = symmetry, .pull_length = 1.0};
+        otx_vec2 *pull;
         const double cell = 1.3;
-        const otx_phase phase = solve(run, s, &q, cell);
+        otx_phase phase;
         const otx_vec3 first =
             otx_vec3_load(s->surface.points, level->face_verts[0]);
         double sense;
 
+        assert_int_equal(
+            otx_attract_axis(
+                run, &s->connection, symmetry, (otx_vec3){0, 1, 0}, &pull),
+            OSDTEX_OK);
+        q.pull = pull;
+        phase = solve(run, s, &q, cell);
         assert_int_equal(phase.defect_count, 0);
         sense = phase.cells[1].x - phase.cells[0].x +
                             (phase.cells[2].x - phase.cells[1].x) >

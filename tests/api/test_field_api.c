@@ -1,0 +1,377 @@
+/* test_field_api.c -- fields as a host sees them: constraints, edits, tables,
+ * and what is refused. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <osdtex/osdtex.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Blocks of a heap that fails at the k-th allocation. */
+typedef struct meter
+{
+    _Atomic long blocks;
+    _Atomic long calls;
+    long fail_at; /* -1 never */
+} meter;
+
+static void *
+meter_alloc(void *user, size_t bytes)
+{
+    meter *m = user;
+
+    if (m->calls++ == m->fail_at)
+        return NULL;
+    ++m->blocks;
+    return malloc(bytes);
+}
+
+static void
+meter_release(void *user, void *block, size_t bytes)
+{
+    meter *m = user;
+
+    (void)bytes;
+    --m->blocks;
+    free(block);
+}
+
+typedef struct scene
+{
+    osdtex_context *context;
+    osdtex_cage *cage;
+    osdtex_surface *surface;
+} scene;
+
+static osdtex_status
+open_scene(
+    scene *s, const char *path, int32_t level,
+    const osdtex_context_options *options)
+{
+    osdtex_surface_options refine = osdtex_surface_options_default();
+    osdtex_status status;
+
+    *s = (scene){0};
+    refine.level = level;
+    status = osdtex_context_create(options, &s->context);
+    if (status == OSDTEX_OK)
+        status = osdtex_cage_read(s->context, path, NULL, &s->cage);
+    if (status == OSDTEX_OK)
+        status =
+            osdtex_surface_refine(s->context, s->cage, &refine, &s->surface);
+    return status;
+}
+
+static void
+close_scene(scene *s)
+{
+    osdtex_surface_destroy(s->surface);
+    osdtex_cage_destroy(s->cage);
+    osdtex_context_destroy(s->context);
+}
+
+static const char *
+last_message(const scene *s)
+{
+    const int32_t count = osdtex_diagnostic_count(s->context);
+    osdtex_diagnostic d;
+
+    if (count == 0 ||
+        osdtex_diagnostic_get(s->context, count - 1, &d) != OSDTEX_OK)
+        return "";
+    return d.message;
+}
+
+static osdtex_field *
+make_field(scene *s, const char *follow, int32_t symmetry)
+{
+    osdtex_field_options options = osdtex_field_options_default();
+    osdtex_field *field;
+
+    options.follow = follow;
+    options.symmetry = symmetry;
+    if (osdtex_field_create(s->context, s->surface, &options, &field) !=
+        OSDTEX_OK)
+        fail_msg("%s: %s", follow, last_message(s));
+    return field;
+}
+
+/* On a closed surface of genus 0 the indices sum to 2, whatever is asked. */
+static void
+every_kind_of_following_obeys_poincare_hopf(void **state)
+{
+    static const char *const kinds[] = {
+        NULL, "smooth", "up", "edges", "curvature", "1,2,-0.5"};
+
+    (void)state;
+    for (int k = 0; k < 6; ++k)
+        for (int32_t symmetry = 1; symmetry <= 4; symmetry *= 2)
+        {
+            scene s;
+            osdtex_field *field;
+            const osdtex_field_info *info;
+            double sum = 0.0;
+
+            assert_int_equal(
+                open_scene(&s, "models/cages/creature.obj", 1, NULL),
+                OSDTEX_OK);
+            field = make_field(&s, kinds[k], symmetry);
+            info = osdtex_field_describe(field);
+            assert_int_equal(info->symmetry, symmetry);
+            for (int32_t i = 0; i < info->singularity_count; ++i)
+                sum += info->singularities[i].index;
+            assert_true(fabs(sum - 2.0) < 1e-9);
+            for (int32_t f = 0; f < info->face_count; ++f)
+            {
+                const float *d = info->directions + 3 * (size_t)f;
+
+                assert_true(
+                    fabs(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - 1.0) < 1e-5);
+            }
+            osdtex_field_destroy(field);
+            close_scene(&s);
+        }
+}
+
+static void
+crosses_follow_the_edges_of_quads(void **state)
+{
+    const osdtex_field_info *info;
+    const osdtex_surface_info *surface;
+    osdtex_field *field;
+    double off = 0.0;
+    scene s;
+
+    (void)state;
+    assert_int_equal(
+        open_scene(&s, "models/cages/torus.obj", 2, NULL), OSDTEX_OK);
+    field = make_field(&s, "edges", 4);
+    info = osdtex_field_describe(field);
+    surface = osdtex_surface_describe(s.surface);
+    assert_int_equal(info->singularity_count, 0);
+    for (int32_t f = 0; f < info->face_count; ++f)
+    {
+        const osdtex_index *v = surface->face_verts + surface->face_first[f];
+        const float *a = surface->points + 3 * (size_t)v[0];
+        const float *b = surface->points + 3 * (size_t)v[1];
+        const float *d = info->directions + 3 * (size_t)f;
+        double dot = 0.0, length_sq = 0.0, cosine;
+
+        for (int i = 0; i < 3; ++i)
+        {
+            dot += (b[i] - a[i]) * d[i];
+            length_sq += (b[i] - a[i]) * (b[i] - a[i]);
+        }
+        cosine = fabs(dot) / sqrt(length_sq);
+        off += fmin(cosine, 1.0 - cosine);
+    }
+    assert_true(off / info->face_count < 0.05);
+    osdtex_field_destroy(field);
+    close_scene(&s);
+}
+
+static void
+an_edit_changes_its_area_only(void **state)
+{
+    osdtex_constraint c = osdtex_constraint_none();
+    const osdtex_field_info *before, *after;
+    osdtex_field *field, *edited;
+    int32_t turned = 0, sized = 0;
+    scene s;
+
+    (void)state;
+    assert_int_equal(
+        open_scene(&s, "models/cages/plane.obj", 3, NULL), OSDTEX_OK);
+    field = make_field(&s, "1,0,0", 2);
+    before = osdtex_field_describe(field);
+    c.face = 0;
+    c.direction[0] = c.direction[2] = 1.0;
+    c.scale = 2.0;
+    c.has_material = 1;
+    c.material = 0.75;
+    if (osdtex_field_edit(
+            s.context, field, &c, 0.3 * osdtex_cage_describe(s.cage)->diagonal,
+            &edited) != OSDTEX_OK)
+        fail_msg("%s", last_message(&s));
+    after = osdtex_field_describe(edited);
+    for (int32_t f = 0; f < before->face_count; ++f)
+        turned +=
+            memcmp(
+                before->directions + 3 * (size_t)f,
+                after->directions + 3 * (size_t)f, 3 * sizeof(float)) != 0;
+    for (int32_t v = 0; v < before->vert_count; ++v)
+        sized += before->scales[v] != after->scales[v];
+    assert_true(turned > 64 && turned < before->face_count / 2);
+    assert_true(sized > 64 && sized < before->vert_count / 2);
+    assert_true(fabs(after->scale_max - 2.0) < 1e-6);
+    assert_true(fabs(after->scales[0] - 2.0) < 1e-6);
+    assert_true(fabs(after->materials[0] - 0.75) < 1e-6);
+    /* A second edit keeps the first; the old fields may go before. */
+    osdtex_field_destroy(field);
+    field = edited;
+    c = osdtex_constraint_none();
+    c.face = 1;
+    c.scale = 0.5;
+    assert_int_equal(
+        osdtex_field_edit(s.context, field, &c, INFINITY, &edited), OSDTEX_OK);
+    osdtex_field_destroy(field);
+    after = osdtex_field_describe(edited);
+    assert_true(fabs(after->scale_min - 0.5) < 1e-6);
+    assert_true(after->scale_max > 1.9);
+    osdtex_field_destroy(edited);
+    close_scene(&s);
+}
+
+static void
+what_cannot_be_held_is_refused_in_a_sentence(void **state)
+{
+    static const struct
+    {
+        osdtex_constraint constraint;
+        const char *says;
+    } cases[] = {
+        {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {0}, 0, 0},
+         "asks for nothing"},
+        {{sizeof(osdtex_constraint), 999999, 0, {0}, 0, {1, 0, 0}, 0, 0},
+         "the cage lacks"},
+        {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {NAN, 0, 0}, 0, 0},
+         "not finite"},
+        {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {0, 1, 0}, 0, 0}, "upright"},
+        {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {0}, 17, 0}, "1/16"},
+        {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {0}, NAN, 0}, "1/16"},
+        {{sizeof(osdtex_constraint), 0, 1, {0}, 0, {0}, 0, -1}, "material"},
+        {{sizeof(osdtex_constraint), -1, 0, {NAN, 0, 0}, 0, {1, 0, 0}, 0, 0},
+         "finite point"},
+    };
+    osdtex_field *field, *edited;
+    scene s;
+
+    (void)state;
+    assert_int_equal(
+        open_scene(&s, "models/cages/plane.obj", 1, NULL), OSDTEX_OK);
+    field = make_field(&s, NULL, 2);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i)
+    {
+        assert_int_equal(
+            osdtex_field_edit(
+                s.context, field, &cases[i].constraint, 1.0, &edited),
+            OSDTEX_ERROR_ARGUMENT);
+        assert_null(edited);
+        if (!strstr(last_message(&s), cases[i].says))
+            fail_msg("%s: %s", cases[i].says, last_message(&s));
+    }
+    assert_int_equal(
+        osdtex_field_edit(s.context, field, &cases[0].constraint, NAN, &edited),
+        OSDTEX_ERROR_ARGUMENT);
+    osdtex_field_destroy(field);
+    close_scene(&s);
+}
+
+static void
+a_table_is_taken_back_as_constraints(void **state)
+{
+    osdtex_field_options options = osdtex_field_options_default();
+    const osdtex_field_info *a, *b;
+    osdtex_field *field, *again;
+    double off = 0.0;
+    char path[64];
+    scene s;
+
+    (void)state;
+    snprintf(path, sizeof path, "/tmp/osdtex-field-%d.csv", (int)getpid());
+    assert_int_equal(
+        open_scene(&s, "models/cages/torus.obj", 1, NULL), OSDTEX_OK);
+    field = make_field(&s, "curvature", 2);
+    assert_int_equal(osdtex_field_write(s.context, field, 0, path), OSDTEX_OK);
+    assert_int_equal(
+        osdtex_field_write(s.context, field, 2, path), OSDTEX_ERROR_ARGUMENT);
+    options.constraints = path;
+    options.symmetry = 2;
+    assert_int_equal(
+        osdtex_field_create(s.context, s.surface, &options, &again), OSDTEX_OK);
+    remove(path);
+    a = osdtex_field_describe(field);
+    b = osdtex_field_describe(again);
+    for (int32_t f = 0; f < a->face_count; ++f)
+    {
+        double dot = 0.0;
+
+        for (int i = 0; i < 3; ++i)
+            dot += a->directions[3 * f + i] * b->directions[3 * f + i];
+        off += 1.0 - fabs(dot);
+    }
+    assert_true(off / a->face_count < 0.02);
+    osdtex_field_destroy(again);
+    osdtex_field_destroy(field);
+    close_scene(&s);
+}
+
+static osdtex_status
+make_and_edit(scene *s)
+{
+    osdtex_field_options options = osdtex_field_options_default();
+    osdtex_constraint c = osdtex_constraint_none();
+    osdtex_field *field = NULL, *edited = NULL;
+    osdtex_status status;
+
+    options.octaves = 0.5;
+    options.follow = "edges";
+    c.face = 2;
+    c.direction[0] = c.direction[1] = c.direction[2] = 1.0;
+    c.scale = 2.0;
+    status = osdtex_field_create(s->context, s->surface, &options, &field);
+    if (status == OSDTEX_OK)
+        status = osdtex_field_edit(s->context, field, &c, 1.0, &edited);
+    osdtex_field_destroy(edited);
+    osdtex_field_destroy(field);
+    return status;
+}
+
+static void
+failing_allocations_leak_nothing(void **state)
+{
+    (void)state;
+    for (long k = 0;; k += 1 + k / 16)
+    {
+        meter m = {.fail_at = k};
+        osdtex_context_options options = osdtex_context_options_default();
+        osdtex_status status;
+        scene s;
+
+        options.alloc = meter_alloc;
+        options.release = meter_release;
+        options.alloc_user = &m;
+        options.threads = 2;
+        status = open_scene(&s, "models/cages/sphere.obj", 1, &options);
+        if (status == OSDTEX_OK)
+            status = make_and_edit(&s);
+        close_scene(&s);
+        assert_int_equal(m.blocks, 0);
+        assert_true(status == OSDTEX_ERROR_MEMORY || status == OSDTEX_OK);
+        if (m.calls <= k)
+            return;
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_kind_of_following_obeys_poincare_hopf),
+        cmocka_unit_test(crosses_follow_the_edges_of_quads),
+        cmocka_unit_test(an_edit_changes_its_area_only),
+        cmocka_unit_test(what_cannot_be_held_is_refused_in_a_sentence),
+        cmocka_unit_test(a_table_is_taken_back_as_constraints),
+        cmocka_unit_test(failing_allocations_leak_nothing),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
