@@ -244,7 +244,7 @@ what_cannot_be_held_is_refused_in_a_sentence(void **state)
          "the cage lacks"},
         {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {NAN, 0, 0}, 0, 0},
          "not finite"},
-        {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {0, 1, 0}, 0, 0}, "upright"},
+        {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {0, 0, 1}, 0, 0}, "upright"},
         {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {0}, 17, 0}, "1/16"},
         {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {0}, NAN, 0}, "1/16"},
         {{sizeof(osdtex_constraint), 0, 1, {0}, 0, {0}, 0, -1}, "material"},
@@ -260,6 +260,7 @@ what_cannot_be_held_is_refused_in_a_sentence(void **state)
     field = make_field(&s, NULL, 2);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i)
     {
+        assert_int_equal(osdtex_diagnostic_clear(s.context), OSDTEX_OK);
         assert_int_equal(
             osdtex_field_edit(
                 s.context, field, &cases[i].constraint, 1.0, &edited),
