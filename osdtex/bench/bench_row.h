@@ -30,6 +30,7 @@ extern const bench_row bench_row_tile;
 extern const bench_row bench_row_growth;
 extern const bench_row bench_row_write;
 extern const bench_row bench_row_field;
+extern const bench_row bench_row_edit;
 
 static inline int32_t
 bench_row_repeat(const bench_options *options, int32_t usual)
