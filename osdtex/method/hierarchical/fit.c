@@ -184,9 +184,10 @@ place_freely(
     otx_match *out)
 {
     const otx_image *image = &m->exemplar->match;
-    double guided[OTX_GUIDE_ANGLES];
+    double guided[OTX_FOLLOW_ANGLES];
     const int32_t guided_count =
-        m->request->guide ? otx_guide_angles(m, &m->nodes[index], guided) : 0;
+        m->request->guide ? otx_follow_angles(m, &m->nodes[index], NAN, guided)
+                          : 0;
 
     for (int32_t turn = 0; turn < 64; ++turn)
     {
@@ -289,7 +290,8 @@ search(
     for (int32_t k = 0; k < s->angles; ++k)
         angles[k] = start + 2.0 * OTX_PI * k / s->angles;
     if (m->request->guide)
-        query.angle_count = otx_guide_angles(m, &m->nodes[t->index], angles);
+        query.angle_count = otx_follow_angles(
+            m, &m->nodes[t->index], otx_continuation_angle(mask), angles);
     query.coarse_levels = s->coarse;
     query.coarse_keep = s->keep;
     query.gauss_newton = s->mode == OTX_HIERARCHICAL_BEST;
@@ -319,6 +321,7 @@ offer_continuation(
     otx_match match;
 
     if (!otx_continuation_match(m, mask, t->points, t->point_count, &match) ||
+        !otx_follow_allows(m, &m->nodes[t->index], match.angle) ||
         (*count > 0 && match.error > best[0].error))
         return;
     best[0] = match;

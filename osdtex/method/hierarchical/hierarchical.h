@@ -184,14 +184,24 @@ void otx_given_take(otx_mapper *m);
 otx_status otx_given_clusters(otx_mapper *m, otx_cluster_list *out);
 /* The offers of the given patches, the first of all. */
 otx_status otx_given_offers(otx_mapper *m);
-/* Orientations at which a node follows the request's guide, into
- * angles[OTX_GUIDE_ANGLES]; how many there are. */
-int32_t
-otx_guide_angles(const otx_mapper *m, const otx_node *node, double *angles);
+
+/* follow.c: patches that follow the request's guide. Angles are radians. */
 enum
 {
-    OTX_GUIDE_ANGLES = 12
+    OTX_FOLLOW_ANGLES = 13
 };
+/* Orientations at which a node follows it, into angles[OTX_FOLLOW_ANGLES]; how
+ * many there are.
+ *
+ *   continuing  that which continues the neighbours; NAN none */
+int32_t otx_follow_angles(
+    const otx_mapper *m, const otx_node *node, double continuing,
+    double *angles);
+/* Whether a node laid so follows closely enough; true without a guide. */
+bool otx_follow_allows(const otx_mapper *m, const otx_node *node, double angle);
+/* Between the guide and what a placed node shows on face `i` of its chart. */
+double
+otx_follow_deviation(const otx_mapper *m, const otx_node *node, int32_t i);
 
 /* band.c: cuts a mask triangle where it leaves the band.
  *

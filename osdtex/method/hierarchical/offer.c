@@ -7,6 +7,9 @@
  * they would show. */
 static const double OFFER_STRETCH = 1.5;
 
+/* Weight of a squared turn against the guide, of a squared strain 1. */
+static const double TURN_COST = 1.0;
+
 static otx_vec2
 place(const otx_node *node, otx_vec2 flat)
 {
@@ -25,13 +28,13 @@ lands_inside(const otx_mapper *m, otx_vec2 p)
            (e->wrap_y || (p.y >= 0.5 && p.y <= h));
 }
 
-/* What a face of the chart costs in the cut: its squared strain; negative when
- * it is not to be offered. */
+/* What a face of the chart costs in the cut: its squared strain and turn;
+ * negative when it is not to be offered. */
 static float
 offer_cost(const otx_mapper *m, const otx_node *node, int32_t i)
 {
     const otx_chart *chart = &node->chart;
-    double s[2];
+    double s[2], turn = 0.0;
 
     otx_chart_face_stretch(chart, m->surface, m->texels, i, s);
     if (i >= chart->core_count)
@@ -42,9 +45,12 @@ offer_cost(const otx_mapper *m, const otx_node *node, int32_t i)
             if (!lands_inside(m, place(node, chart->flat[chart->corners[c]])))
                 return -1.0f;
     }
+    if (m->request->guide)
+        turn = otx_follow_deviation(m, node, i);
     s[0] = fmax(s[0], 0.1);
     s[1] = fmax(s[1], 0.1);
-    return (float)(log(s[0]) * log(s[0]) + log(s[1]) * log(s[1]));
+    return (
+        float)(log(s[0]) * log(s[0]) + log(s[1]) * log(s[1]) + TURN_COST * turn * turn);
 }
 
 typedef struct slot
