@@ -8,7 +8,7 @@
 static const double OFFER_STRETCH = 1.5;
 
 /* Weight of a squared turn against the guide, of a squared strain 1. */
-static const double TURN_COST = 1.0;
+static const double TURN_COST = 0.4;
 
 static otx_vec2
 place(const otx_node *node, otx_vec2 flat)

@@ -151,12 +151,18 @@ close_dislocations_vanish(void **state)
     otx_run *run = test_run_create();
     const otx_cage_input in = field_torus(run, 16, 24);
     const field_surface *s = field_from_input(run, &in, 2);
-    const otx_direction_request q = {
-        .symmetry = 1, .guide = {0.3, 1, 0.2}, .guide_length = 0.1};
-    const otx_phase apart = solve_with(run, s, &q, 0.25, 0.0);
-    const otx_phase met = solve_with(run, s, &q, 0.25, 0.5);
+    otx_direction_request q = {.symmetry = 1, .pull_length = 0.1};
+    otx_phase apart, met;
+    otx_vec2 *pull;
 
     (void)state;
+    assert_int_equal(
+        otx_attract_axis(
+            run, &s->connection, 1, (otx_vec3){0.3, 1, 0.2}, &pull),
+        OSDTEX_OK);
+    q.pull = pull;
+    apart = solve_with(run, s, &q, 0.25, 0.0);
+    met = solve_with(run, s, &q, 0.25, 0.5);
     assert_true(apart.defect_count > 0);
     assert_int_equal(apart.cancelled, 0);
     assert_true(met.cancelled > 0);
