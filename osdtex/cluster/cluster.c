@@ -37,10 +37,11 @@ face_area(const otx_surface *surface, int32_t level, int32_t face)
     otx_surface_leaves(surface, level, face, &first, &end);
     for (int32_t f = first; f < end; ++f)
     {
+        const double density = otx_dual_leaf_density(surface, f);
         otx_vec3 centroid;
 
-        area +=
-            0.5 * otx_vec3_length(otx_dual_leaf_area(surface, f, &centroid));
+        area += 0.5 * density * density *
+                otx_vec3_length(otx_dual_leaf_area(surface, f, &centroid));
     }
     return area;
 }

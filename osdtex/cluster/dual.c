@@ -26,13 +26,23 @@ otx_dual_leaf_area(const otx_surface *surface, int32_t face, otx_vec3 *centroid)
     return area;
 }
 
+double
+otx_dual_leaf_density(const otx_surface *surface, int32_t face)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+
+    return otx_surface_density(
+        surface, leaf->face_verts + leaf->face_first[face],
+        otx_level_face_size(leaf, face));
+}
+
 /* Sums the leaves of one face. */
 static void
 measure_face(const otx_surface *surface, otx_dual *dual, int32_t face)
 {
     const otx_level *leaf = otx_surface_leaf(surface);
     otx_vec3 centroid = {0, 0, 0}, normal = {0, 0, 0};
-    double area = 0.0;
+    double area = 0.0, scaled = 0.0;
     int32_t first, end;
 
     otx_surface_leaves(surface, dual->level_index, face, &first, &end);
@@ -41,10 +51,12 @@ measure_face(const otx_surface *surface, otx_dual *dual, int32_t face)
         otx_vec3 c;
         const otx_vec3 a = otx_dual_leaf_area(surface, f, &c);
         const double weight = 0.5 * otx_vec3_length(a);
+        const double density = otx_dual_leaf_density(surface, f);
 
         normal = otx_vec3_add(normal, a);
         centroid = otx_vec3_mix(1.0, centroid, weight, c);
         area += weight;
+        scaled += density * density * weight;
     }
     if (area > 0.0)
         centroid = otx_vec3_scale(1.0 / area, centroid);
@@ -52,7 +64,9 @@ measure_face(const otx_surface *surface, otx_dual *dual, int32_t face)
         otx_dual_leaf_area(surface, first, &centroid);
     dual->centroids[face] = centroid;
     dual->normals[face] = otx_vec3_unit(normal);
-    dual->areas[face] = leaf->face_hole[first] ? 0.0 : area;
+    dual->areas[face] = leaf->face_hole[first] ? 0.0 : scaled;
+    if (dual->densities)
+        dual->densities[face] = area > 0.0 ? sqrt(scaled / area) : 1.0;
 }
 
 typedef struct measure_job
@@ -91,7 +105,10 @@ otx_dual_build(
     out->centroids = OTX_NEW(run->arena, otx_vec3, l->face_count);
     out->normals = OTX_NEW(run->arena, otx_vec3, l->face_count);
     out->areas = OTX_NEW(run->arena, double, l->face_count);
-    if (!out->centroids || !out->normals || !out->areas)
+    if (surface->density)
+        out->densities = OTX_NEW(run->arena, double, l->face_count);
+    if (!out->centroids || !out->normals || !out->areas ||
+        (surface->density && !out->densities))
         return otx_fail_memory(run, "cluster");
     return otx_pool_for(
         run->pool, (l->face_count + FACES_PER_TASK - 1) / FACES_PER_TASK,
@@ -105,5 +122,8 @@ otx_dual_step(const otx_dual *dual, int32_t a, int32_t b, double bend)
         otx_vec3_length(otx_vec3_sub(dual->centroids[a], dual->centroids[b]));
     const double turn = 1.0 - otx_vec3_dot(dual->normals[a], dual->normals[b]);
 
-    return distance * (1.0 + bend * turn);
+    const double density =
+        dual->densities ? 0.5 * (dual->densities[a] + dual->densities[b]) : 1.0;
+
+    return density * distance * (1.0 + bend * turn);
 }

@@ -148,8 +148,9 @@ unfold(
             continue;
         done[entry.item] = 1;
         project_face(
-            chart, request->surface, request->texels, leaves->normals[face],
-            entry.item, shape);
+            chart, request->surface,
+            request->texels * otx_dual_leaf_density(request->surface, face),
+            leaves->normals[face], entry.item, shape);
         place_face(chart, entry.item, shape, placed);
         for (int32_t k = 0; k < otx_level_face_size(leaves->level, face); ++k)
         {
@@ -183,7 +184,7 @@ otx_arap_flatten(
     const otx_rigid_mesh mesh = {chart->face_count, chart->vert_count,
                                  chart->first,      chart->corners,
                                  chart->verts,      request->surface->points,
-                                 request->texels};
+                                 request->texels,   request->surface->density};
     otx_rigid rigid;
     otx_vec2 *b = OTX_NEW(scratch, otx_vec2, chart->vert_count);
     otx_vec2 *diagonal = OTX_NEW(scratch, otx_vec2, chart->vert_count);

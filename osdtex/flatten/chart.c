@@ -238,6 +238,9 @@ otx_chart_face_stretch(
     {
         const int32_t v[3] = {
             chart->corners[first], chart->corners[c], chart->corners[c + 1]};
+        const int32_t leaf[3] = {
+            chart->verts[v[0]], chart->verts[v[1]], chart->verts[v[2]]};
+        const double density = otx_surface_density(surface, leaf, 3);
         otx_vec3 p[3];
         otx_vec2 uv[3];
         double s[2], badness;
@@ -245,7 +248,7 @@ otx_chart_face_stretch(
         for (int i = 0; i < 3; ++i)
         {
             p[i] = otx_vec3_scale(
-                texels, otx_vec3_load(surface->points, chart->verts[v[i]]));
+                density * texels, otx_vec3_load(surface->points, leaf[i]));
             uv[i] = chart->flat[v[i]];
         }
         otx_stretch_singular(p, uv, s);

@@ -32,11 +32,15 @@ half_cotangent(otx_vec2 apex, otx_vec2 a, otx_vec2 b)
 static void
 make_triangle(const otx_rigid_mesh *mesh, otx_rigid_triangle *t)
 {
+    double texels = mesh->density ? 0.0 : mesh->texels;
     otx_vec3 p[3];
 
+    for (int i = 0; mesh->density && i < 3; ++i)
+        texels +=
+            mesh->texels / 3.0 * (double)mesh->density[mesh->verts[t->v[i]]];
     for (int i = 0; i < 3; ++i)
         p[i] = otx_vec3_scale(
-            mesh->texels, otx_vec3_load(mesh->points, mesh->verts[t->v[i]]));
+            texels, otx_vec3_load(mesh->points, mesh->verts[t->v[i]]));
     otx_stretch_layout(p, t->q);
     for (int i = 0; i < 3; ++i)
         t->w[i] = half_cotangent(t->q[(i + 2) % 3], t->q[i], t->q[(i + 1) % 3]);

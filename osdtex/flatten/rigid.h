@@ -21,6 +21,7 @@ typedef struct otx_rigid_mesh
     const int32_t *verts;   /* [vert_count] index into points */
     const float *points;    /* surface, 3 per point, scene units */
     double texels;          /* per scene unit */
+    const float *density;   /* like points; NULL: 1. See otx_surface */
 } otx_rigid_mesh;
 
 typedef struct otx_rigid_triangle

@@ -159,6 +159,8 @@ lay_face(const survey *s, int32_t face, laid_face *out)
     const int32_t size = otx_level_face_size(s->leaf, face);
     otx_vec3 e1, e2;
     const bool flat = face_plane(s, face, &e1, &e2);
+    const double density =
+        otx_surface_density(s->mapping->surface, verts, size);
 
     out->size = size < CORNERS_MAX ? size : CORNERS_MAX;
     for (int32_t k = 0; k < out->size; ++k)
@@ -166,8 +168,11 @@ lay_face(const survey *s, int32_t face, laid_face *out)
         const otx_vec3 d = otx_vec3_sub(
             otx_vec3_load(points, verts[k]), otx_vec3_load(points, verts[0]));
 
-        out->p[k] = flat ? (otx_vec2){otx_vec3_dot(d, e1), otx_vec3_dot(d, e2)}
-                         : (otx_vec2){0.0, 0.0};
+        out->p[k] =
+            flat ? otx_vec2_scale(
+                       density,
+                       (otx_vec2){otx_vec3_dot(d, e1), otx_vec3_dot(d, e2)})
+                 : (otx_vec2){0.0, 0.0};
         out->q[k] = otx_vec2_scale(
             1.0 / s->density,
             otx_seam_texel(s->mapping, s->exemplar, first + k));

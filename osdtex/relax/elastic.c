@@ -363,6 +363,10 @@ face_badness(const elastic *e, int32_t face)
     {
         const int32_t v[3] = {
             s->corners[first], s->corners[c], s->corners[c + 1]};
+        const int32_t leaf[3] = {
+            s->verts[v[0]], s->verts[v[1]], s->verts[v[2]]};
+        const double texels =
+            e->options->texels * otx_surface_density(e->surface, leaf, 3);
         otx_vec3 p[3];
         otx_vec2 uv[3];
         double sigma[2];
@@ -370,8 +374,7 @@ face_badness(const elastic *e, int32_t face)
         for (int i = 0; i < 3; ++i)
         {
             p[i] = otx_vec3_scale(
-                e->options->texels,
-                otx_vec3_load(e->surface->points, s->verts[v[i]]));
+                texels, otx_vec3_load(e->surface->points, leaf[i]));
             uv[i] = s->at[v[i]];
         }
         otx_stretch_singular(p, uv, sigma);
@@ -576,8 +579,8 @@ keep_shape(elastic *e)
     otx_arena *arena = e->run->scratch;
     float *points = OTX_ZNEW(arena, float, 3 * (int64_t)s->count);
     int32_t *verts = OTX_NEW(arena, int32_t, s->count);
-    const otx_rigid_mesh mesh = {
-        s->face_count, s->count, s->first, s->corners, verts, points, 1.0};
+    const otx_rigid_mesh mesh = {s->face_count, s->count, s->first, s->corners,
+                                 verts,         points,   1.0,      NULL};
 
     if (!points || !verts)
         return otx_fail_memory(e->run, "relax");

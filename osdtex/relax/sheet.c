@@ -166,9 +166,10 @@ list_seams(
             continue;
         side(leaf, e, f[0], variable, seam->a);
         side(leaf, e, f[1], variable, seam->b);
-        seam->length = texels * otx_vec3_length(otx_vec3_sub(
-                                    otx_vec3_load(surface->points, v[0]),
-                                    otx_vec3_load(surface->points, v[1])));
+        seam->length = texels * otx_surface_density(surface, v, 2) *
+                       otx_vec3_length(otx_vec3_sub(
+                           otx_vec3_load(surface->points, v[0]),
+                           otx_vec3_load(surface->points, v[1])));
         ++s->seam_count;
     }
 }
@@ -204,9 +205,9 @@ otx_sheet_build(
         fix_rim(leaf, first, corner, patch, variable, face_patch, inside, out);
     list_faces(leaf, faces, variable, out);
     list_seams(surface, texels, faces, variable, out);
-    mesh = (otx_rigid_mesh){out->face_count, out->count, out->first,
-                            out->corners,    out->verts, surface->points,
-                            texels};
+    mesh = (otx_rigid_mesh){out->face_count, out->count,      out->first,
+                            out->corners,    out->verts,      surface->points,
+                            texels,          surface->density};
     if (otx_rigid_build(arena, &mesh, &out->rigid) != OSDTEX_OK)
         return otx_fail_memory(run, "relax");
     return OSDTEX_OK;

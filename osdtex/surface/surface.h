@@ -28,6 +28,10 @@ typedef struct otx_surface
     const float *uvs;        /* [uv_count * 2] */
     const int32_t *face_uvs; /* [leaf corner_count] */
 
+    /* [leaf vert_count] how many times the texels to a scene unit that a scale
+     * means the texture is to have there; NULL: once throughout. */
+    const float *density;
+
     double area;             /* of the leaf polygons that are not holes */
     double mean_edge_length; /* of the leaf level */
 } otx_surface;
@@ -36,6 +40,20 @@ static inline const otx_level *
 otx_surface_leaf(const otx_surface *surface)
 {
     return &surface->levels[surface->level_count - 1];
+}
+
+/* Mean density of `count` leaf vertices. */
+static inline double
+otx_surface_density(
+    const otx_surface *surface, const int32_t *verts, int32_t count)
+{
+    double sum = 0.0;
+
+    if (!surface->density)
+        return 1.0;
+    for (int32_t i = 0; i < count; ++i)
+        sum += (double)surface->density[verts[i]];
+    return sum / count;
 }
 
 /* Refines `cage` uniformly `level` times (0 .. OTX_LEVEL_MAX) and evaluates

@@ -68,6 +68,46 @@ class Jobs(ProgramTest):
         self.assertEqual(textures["keep"], textures["auto"])
         self.assertNotEqual(textures["keep"], textures["make"])
 
+    def test_local_scale(self):
+        """The texture doubles from one corner of a plane to the other."""
+        wishes = self.folder / "wishes.json"
+        wishes.write_text(
+            '{"constraints": [{"face": 0, "scale": 1}, '
+            '{"face": 15, "scale": 2}]}')
+        report = self.folder / "out.json"
+        result = self.run_map(
+            CAGE, EXEMPLAR, *QUICK, "--constraints", wishes, "--json-report",
+            report)
+        self.assert_exit(result, 0)
+        self.assertEqual(
+            json.loads(report.read_text())["distortion"]["flips"], 0)
+        points, uvs, faces = [], [], []
+        for line in (self.folder / "out.obj").read_text().splitlines():
+            word, *rest = line.split() or [""]
+            if word == "v":
+                points.append([float(x) for x in rest])
+            elif word == "vt":
+                uvs.append([float(x) for x in rest])
+            elif word == "f":
+                faces.append([[int(i) - 1 for i in c.split("/")]
+                              for c in rest])
+
+        def area(corners):
+            total = [0.0, 0.0, 0.0]
+            for a, b in zip(corners, corners[1:] + corners[:1]):
+                a, b = (a + [0])[:3], (b + [0])[:3]
+                for k in range(3):
+                    i, j = (k + 1) % 3, (k + 2) % 3
+                    total[k] += a[i] * b[j] - a[j] * b[i]
+            return sum(t * t for t in total) ** 0.5
+
+        def size(face):
+            return (area([points[c[0]] for c in face]) /
+                    area([uvs[c[1]] for c in face])) ** 0.5
+
+        self.assertAlmostEqual(
+            size(faces[-1]) / size(faces[0]), 2.0, delta=0.35)
+
     def test_default_scale_is_said(self):
         result = self.run_map(CAGE, EXEMPLAR, "-n")
         self.assertIn("a fifth of the diagonal", result.stderr)

@@ -5,6 +5,8 @@
  * is fitted, and all charts are made in parallel. */
 #include "method/hierarchical/hierarchical.h"
 
+#include "method/density.h"
+
 /* Flattens the nodes from `first` on, splits what is not flat, and goes on with
  * the children, until all are. */
 static otx_status
@@ -267,6 +269,27 @@ make_guide(
     return otx_guide_make(run, surface, &a, request->constraints, guide);
 }
 
+/* The sizes that the user asks for. */
+static otx_status
+make_density(
+    otx_run *run, const otx_hierarchical_settings *settings,
+    const otx_map_request *request, const otx_surface **surface)
+{
+    const otx_surface *plain = *surface;
+
+    if (settings->flatten != OTX_HIERARCHICAL_RECURSIVE &&
+        settings->mode != OTX_HIERARCHICAL_PAPER)
+        return otx_density_apply(run, plain, request->constraints, surface);
+    OTX_TRY(otx_density_apply(run, plain, request->constraints, surface));
+    if (*surface != plain)
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, "map", OTX_NOWHERE,
+            "the published method has one size everywhere; the scales among "
+            "the constraints are left out");
+    *surface = plain;
+    return OSDTEX_OK;
+}
+
 static otx_status
 map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     const otx_map_request *request, const void *settings, otx_mapping *out,
@@ -278,6 +301,7 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     if (!guided || !guide)
         return otx_fail_memory(run, "map");
     *guided = *request;
+    OTX_TRY(make_density(run, settings, request, &surface));
     OTX_TRY(make_guide(run, surface, exemplar, settings, guided, guide));
     return fill(run, surface, exemplar, guided, settings, NULL, out, stats);
 }

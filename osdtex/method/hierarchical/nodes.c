@@ -63,9 +63,10 @@ otx_nodes_edge_length(const otx_mapper *m, int32_t edge)
     const int32_t *v =
         otx_surface_leaf(m->surface)->edge_verts + 2 * (size_t)edge;
 
-    return m->texels * otx_vec3_length(otx_vec3_sub(
-                           otx_vec3_load(m->surface->points, v[0]),
-                           otx_vec3_load(m->surface->points, v[1])));
+    return m->texels * otx_surface_density(m->surface, v, 2) *
+           otx_vec3_length(otx_vec3_sub(
+               otx_vec3_load(m->surface->points, v[0]),
+               otx_vec3_load(m->surface->points, v[1])));
 }
 
 /* Length of the outline, and of its textured part. */

@@ -30,8 +30,14 @@ build(otx_run *run, double bump, otx_vec2 *flat)
         flat[v] = (otx_vec2){3.0 * p.x, 3.0 * p.y};
     }
     mesh = (otx_rigid_mesh){
-        leaf->face_count, VERTS, leaf->face_first, leaf->face_verts, verts,
-        points,           3.0};
+        leaf->face_count,
+        VERTS,
+        leaf->face_first,
+        leaf->face_verts,
+        verts,
+        points,
+        3.0,
+        NULL};
     assert_int_equal(otx_rigid_build(run->arena, &mesh, &rigid), OSDTEX_OK);
     return rigid;
 }
