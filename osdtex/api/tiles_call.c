@@ -46,6 +46,7 @@ choose_options(
         .cell = o->tile_size,
         .gutter = o->gutter,
         .oriented = o->oriented != 0,
+        .ramp = o->ramp != 0,
         .has_corner = o->has_corner != 0,
         .corner = {o->corner_x, o->corner_y},
         .background =

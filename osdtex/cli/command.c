@@ -74,6 +74,7 @@ static const otx_flag_id tiles_flags[] = {
     OTX_FLAG_EDGE_TEMPLATE,
     OTX_FLAG_CORNER_TEMPLATE,
     OTX_FLAG_BACKGROUND,
+    OTX_FLAG_BLEND,
     OTX_FLAG_FOR,
     OTX_FLAG_SCALE,
     OTX_FLAG_LEVEL,

@@ -100,6 +100,11 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_BACKGROUND] =
         {"background", 0, OTX_FLAG_GROUP_MAIN, "X0,Y0,X1,Y1",
          "insides of tiles come from these texels only (default: from all)"},
+    [OTX_FLAG_BLEND] =
+        {"blend", 0, OTX_FLAG_GROUP_MAIN, "cut|ramp",
+         "how edges meet insides: cut, or ramp, the cross-fade of the method "
+         "as published, for comparison; its tiles jump at vertices (default "
+         "cut)"},
     [OTX_FLAG_FOR] =
         {"for", 0, OTX_FLAG_GROUP_MAIN, "CAGE.obj",
          "make only the tiles that `osdtex map CAGE.obj` needs with the same "

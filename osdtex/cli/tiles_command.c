@@ -104,6 +104,18 @@ parse_places(job *j)
 }
 
 static bool
+parse_blend(job *j)
+{
+    const char *text = j->values->text[OTX_FLAG_BLEND];
+
+    j->options.ramp = text && strcmp(text, "ramp") == 0;
+    if (!text || j->options.ramp || strcmp(text, "cut") == 0)
+        return true;
+    otx_session_refuse("--blend is cut or ramp, not '%s'", text);
+    return false;
+}
+
+static bool
 parse_numbers(job *j)
 {
     const otx_flag_values *values = j->values;
@@ -172,12 +184,22 @@ parse(job *j, const otx_flag_values *values)
     /* Tiles have cuts of their own. */
     j->exemplar_options.tileable = OSDTEX_TILEABLE_KEEP;
     return otx_inputs_cage(values, &j->cage_options) && parse_numbers(j) &&
-           parse_edges(j) && parse_places(j) && parse_mesh(j);
+           parse_blend(j) && parse_edges(j) && parse_places(j) && parse_mesh(j);
 }
 
 static void
 say_done(otx_session *session, const job *j, const osdtex_tiles_info *info)
 {
+    if (j->options.ramp)
+    {
+        otx_session_say(
+            session,
+            "wrote %s: %d tiles of %d texels, %d x %d, cross-faded; they do "
+            "not meet at vertices, %.1f s",
+            j->output, info->tile_count, info->tile_size, info->width,
+            info->height, otx_session_seconds(session));
+        return;
+    }
     otx_session_say(
         session,
         "wrote %s: %d tiles of %d texels, %d x %d; cuts inside tiles %.2f of a "

@@ -1,5 +1,6 @@
 /* tileset.c -- from options to a picture of tiles. */
 #include "tiling/tileset.h"
+#include "tiling/ramp.h"
 #include "tiling/template.h"
 #include "tiling/vertex_check.h"
 
@@ -233,6 +234,7 @@ typedef struct filler
     const otx_patch_search *patches;
     const otx_texel_pool *pool;
     otx_tileset *set;
+    bool ramp;
     otx_texel_map texels;   /* of the whole picture */
     otx_quilt_seams *seams; /* [tile_count] */
     int32_t first;          /* tile of the piece at hand */
@@ -249,14 +251,13 @@ keep_texels(const otx_texel_map *tile, int32_t x, int32_t y, otx_texel_map *all)
             tile->texels + (size_t)row * width, width * sizeof *tile->texels);
 }
 
-/* Colours of the texels; cells without a tile stay 0. */
+/* Colours of the texels; where there is none the image stays as it is. */
 static void
 paint(const otx_texel_pool *pool, const otx_texel_map *map, otx_image *image)
 {
     const size_t channels = (size_t)pool->channels;
     const size_t count = (size_t)map->width * (size_t)map->height;
 
-    memset(image->pixels, 0, count * channels * sizeof(float));
     for (size_t i = 0; i < count; ++i)
         if (map->texels[i] != OTX_TEXEL_NONE)
             memcpy(
@@ -279,12 +280,14 @@ fill_tile(void *context, int64_t index, otx_worker *worker)
 
     run.arena = run.scratch = worker->scratch;
     run.pool = NULL;
+    otx_tile_layout_origin(layout, cell, &x, &y);
+    if (f->ramp)
+        return otx_ramp_paint(&run, f->search, &name, x, y, &f->set->linear);
     OTX_TRY(otx_texel_map_create(
         &run, run.scratch, layout->cell, layout->cell, &map));
     OTX_TRY(otx_interior_build(
         &run, f->search, &name, f->patches, &otx_tileset_interior, &map,
         &f->seams[cell]));
-    otx_tile_layout_origin(layout, cell, &x, &y);
     keep_texels(&map, x, y, &f->texels);
     return OSDTEX_OK;
 }
@@ -327,7 +330,7 @@ sum_up(const otx_frame_kit *kit, const filler *f, otx_tileset *set)
     set->random_pair = f->pool->random_pair;
 }
 
-/* What goes into the header. */
+/* What goes into the header. Blended texels are not looked up. */
 static otx_status
 judge(
     otx_run *run, const otx_patch_search *looks, const filler *f,
@@ -336,6 +339,9 @@ judge(
     const double unit = set->random_pair > 0.0 ? 1.0 / set->random_pair : 0.0;
     otx_vertex_figures seen;
 
+    set->layout.figures = (otx_tile_figures){-1.0, -1.0, -1.0};
+    if (f->ramp)
+        return OSDTEX_OK;
     OTX_TRY(otx_vertex_check(run, looks, &set->layout, &f->texels, &seen));
     set->layout.figures = (otx_tile_figures){
         .inner_cut = unit * set->inner_seam,
@@ -345,6 +351,7 @@ judge(
     return OSDTEX_OK;
 }
 
+/* Black, so that cells without a tile are. */
 static otx_status
 create_picture(otx_run *run, const otx_exemplar *exemplar, otx_tileset *set)
 {
@@ -353,9 +360,14 @@ create_picture(otx_run *run, const otx_exemplar *exemplar, otx_tileset *set)
     OTX_TRY(otx_tile_layout_arrange(run, layout));
     set->tile_count =
         layout->names ? layout->name_count : layout->columns * layout->rows;
-    return otx_image_create(
+    OTX_TRY(otx_image_create(
         run, run->arena, layout->columns * layout->cell,
-        layout->rows * layout->cell, exemplar->linear.channels, &set->linear);
+        layout->rows * layout->cell, exemplar->linear.channels, &set->linear));
+    memset(
+        set->linear.pixels, 0,
+        (size_t)set->linear.width * (size_t)set->linear.height *
+            (size_t)set->linear.channels * sizeof(float));
+    return OSDTEX_OK;
 }
 
 /* A picture of no texels as large as the set's. */
@@ -424,6 +436,7 @@ otx_tileset_make(
         .patches = &patches,
         .pool = &pool,
         .set = out,
+        .ramp = options->ramp,
         .seams = OTX_ZNEW(own.arena, otx_quilt_seams, out->tile_count),
     };
     if (!f.seams)

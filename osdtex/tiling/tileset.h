@@ -24,6 +24,7 @@ typedef struct otx_tileset_options
     int32_t cell;       /* a power of two, 0: by the size of the picture */
     int32_t gutter;     /* a power of two */
     bool oriented;
+    bool ramp; /* cross-fades as the paper prints them, see ramp.h */
     bool has_corner;
     otx_vec2 corner; /* texels; middle of the first corner */
     int32_t edge_count;

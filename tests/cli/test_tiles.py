@@ -78,6 +78,21 @@ class Tiles(ProgramTest):
             PICTURES[0], *SMALL, "--edge-template", "60,60,30",
             "--corner-template", "50,40", "--background", "10,10,90,90")
 
+    def test_the_published_blend_fits_the_same_mesh(self):
+        report, uvs, worst = self.folder / "out.json", [], []
+        for blend in ("cut", "ramp"):
+            self.lay(
+                self.make(PICTURES[0], *SMALL, "--blend", blend),
+                "--json-report", report)
+            level = json.loads(report.read_text())["tiles"][
+                "mismatch_by_mip_level"][0]
+            worst.append((level["edge_max"], level["corner_max"]))
+            text = (self.folder / "out.obj").read_text()
+            uvs.append([l for l in text.splitlines() if l[:2] in ("vt", "f ")])
+        self.assertEqual(uvs[0], uvs[1])
+        self.assertLessEqual(max(worst[0]), 1 / 1024)
+        self.assertGreater(min(worst[1]), 0.05)
+
     def test_oriented_says_where_it_cannot_be(self):
         tiles = self.make(
             PICTURES[0], *SMALL, "--oriented", "--for", CAGE, "--tile-level",
@@ -92,6 +107,7 @@ class Tiles(ProgramTest):
         for words, options in (
                 ("power of two", ("--tile-size", "100")),
                 ("1 to 3", ("--boundaries", "4")),
+                ("cut or ramp", ("--blend", "soft")),
                 ("X,Y,ANGLE", ("--edge-template", "1,2")),
                 ("leaves the picture", ("--edge-template", "-900,5,0")),
                 ("8 gutters", ("--tile-size", "32", "--gutter", "16")),
