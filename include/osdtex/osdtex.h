@@ -435,7 +435,9 @@ extern "C"
         OSDTEX_WRAP_YES = 2
     };
 
-    /* What becomes of a picture that does not tile. */
+    /* What becomes of a picture that does not tile. UVs refer to the picture
+     * that is made, so maps that lie on the file's pixels no longer fit: by
+     * default it is kept. */
     typedef int32_t osdtex_tileable;
     enum
     {
@@ -467,7 +469,7 @@ extern "C"
             NULL,
             OSDTEX_EMBEDDING_HSV_CONE,
             OSDTEX_WRAP_AUTO,
-            OSDTEX_TILEABLE_AUTO,
+            OSDTEX_TILEABLE_KEEP,
             0};
 
         return options;
@@ -590,8 +592,8 @@ extern "C"
         size_t size;
         osdtex_index face; /* of the cage; -1: at the point */
         int32_t has_material;
-        double point[3]; /* scene units */
-        double radius;   /* around it; the nearest face is held at least */
+        double point[3];     /* scene units */
+        double radius;       /* around it; the nearest face is held at least */
         double direction[3]; /* scene axes; 0: not asked */
         double scale;        /* factor on the size, 1/16 .. 16; 0: not asked */
         double material;     /* 0 .. 1 */
@@ -600,14 +602,8 @@ extern "C"
     static inline osdtex_constraint osdtex_constraint_none(void)
     {
         osdtex_constraint constraint = {
-            sizeof(osdtex_constraint),
-            -1,
-            0,
-            {0.0, 0.0, 0.0},
-            0.0,
-            {0.0, 0.0, 0.0},
-            0.0,
-            0.0};
+            sizeof(osdtex_constraint), -1,  0,  {0.0, 0.0, 0.0}, 0.0,
+            {0.0, 0.0, 0.0},           0.0, 0.0};
 
         return constraint;
     }

@@ -181,7 +181,9 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"tileable", 0, OTX_FLAG_GROUP_COLOUR, "auto|keep|make",
          "what to do with an exemplar that does not tile: keep it, and stay "
          "inside it; make it tile by cuts, which gives patches more places to "
-         "come from (default auto: make it, where that is judged good)"},
+         "come from, and another texture than the file's; auto: make it, where "
+         "that is judged good (default keep: UVs fit the file, and maps that "
+         "belong to it)"},
     [OTX_FLAG_COLORCONFIG] =
         {"colorconfig", 0, OTX_FLAG_GROUP_COLOUR, "FILE",
          "OpenColorIO configuration (default: $OCIO, else a built-in one)"},
