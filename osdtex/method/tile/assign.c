@@ -9,6 +9,7 @@ enum
     EDGE_STAGE = 0x7469a001,
     FACE_STAGE = 0x7469a002,
     VERT_STAGE = 0x7469a003,
+    FREE_MAX = 2 * OTX_TILE_LAYOUT_MAX_BOUNDARIES,
     TRIES = 4,  /* names that are compared for a face: two sides may move */
     REPAIRS = 3 /* passes over equal neighbours, at most */
 };
@@ -22,7 +23,10 @@ typedef struct assigner
     int32_t types; /* of a side, 2 * boundaries */
     int32_t span;  /* types that a free side chooses from */
     int32_t step;  /* between them: 2 where the parity is given */
-    int32_t half;  /* see otx_tile_layout_half */
+    /* Types that side i may take when it is free, the first once more behind
+     * the last. */
+    uint8_t free_types[4][FREE_MAX + 1];
+    int32_t half; /* see otx_tile_layout_half */
     int32_t corners;
     bool exact;          /* few enough names for one bit each */
     uint8_t *edge_types; /* [edge_count] 1 + type that the first face sees,
@@ -97,59 +101,39 @@ view_face(const assigner *a, int32_t face, face_view *f)
     }
 }
 
-/* Type `draw` (0 .. span - 1) of a free side. */
-static inline int32_t
-free_type(const assigner *a, int32_t side, int32_t draw)
-{
-    int32_t type = draw;
-
-    if (!a->input->layout->oriented)
-        return type;
-    if (a->step == 2)
-        type = 2 * draw + (side >> 1);
-    return side & 1 ? type + a->input->layout->boundaries : type;
-}
-
 /* The candidates of a face: types drawn for its free sides, of which the first
- * two may also be the next type. */
+ * two may also be the next type. What stands behind them moves nothing. */
 typedef struct candidates
 {
     int32_t number;   /* with the types drawn */
     int32_t sides[4]; /* those types; given ones as they are */
-    int32_t moved[2]; /* free sides that may move, 0 where there are none */
-    int32_t types[2]; /* to these types */
-    int32_t steps[2]; /* by which the number changes then */
+    int32_t moved[4]; /* free sides, which may move */
+    int32_t types[4]; /* to these types */
+    int32_t steps[4]; /* by which the number changes then */
 } candidates;
 
 static inline void
 draw(const assigner *a, uint64_t random, const face_view *f, candidates *out)
 {
-    int32_t free_count = 0;
+    int32_t slot = 0;
 
     out->number = f->corner_number;
-    out->steps[0] = out->steps[1] = 0;
-    out->moved[0] = out->moved[1] = 0;
+    for (int32_t m = 0; m < 2; ++m)
+        out->moved[m] = out->types[m] = out->steps[m] = 0;
     for (int32_t i = 0; i < 4; ++i)
     {
-        out->sides[i] = f->sides[i];
-        if (f->sides[i] < 0)
-        {
-            const int32_t d =
-                (int32_t)((random >> (16 * i) & 0xffff) * (uint64_t)a->span >> 16);
+        const bool is_free = f->sides[i] < 0;
+        const uint64_t d =
+            (random >> (16 * i) & 0xffff) * (uint64_t)a->span >> 16;
+        const int32_t type = a->free_types[i][d];
+        const int32_t next = a->free_types[i][d + 1];
 
-            out->sides[i] = free_type(a, i, d);
-            if (free_count < 2)
-            {
-                const int32_t type =
-                    free_type(a, i, d + 1 == a->span ? 0 : d + 1);
-
-                out->moved[free_count] = i;
-                out->types[free_count] = type;
-                out->steps[free_count++] =
-                    (type - out->sides[i]) * a->weights[i];
-            }
-        }
+        out->sides[i] = is_free ? type : f->sides[i];
         out->number += out->sides[i] * a->weights[i];
+        out->moved[slot] = i;
+        out->types[slot] = next;
+        out->steps[slot] = is_free ? (next - type) * a->weights[i] : 0;
+        slot += is_free;
     }
 }
 
@@ -172,11 +156,13 @@ choose(const assigner *a, uint64_t seen, candidates *c)
         best_score = score < best_score ? score : best_score;
     }
     for (int32_t m = 0; m < 2; ++m)
-        if ((best >> m & 1) && c->steps[m] != 0)
-        {
-            c->sides[c->moved[m]] = c->types[m];
-            c->number += c->steps[m];
-        }
+    {
+        const bool moves = best >> m & 1;
+        const int32_t side = c->moved[m];
+
+        c->sides[side] = moves ? c->types[m] : c->sides[side];
+        c->number += moves ? c->steps[m] : 0;
+    }
     return best_score >> 40 != 0;
 }
 
@@ -203,8 +189,8 @@ spread(assigner *a)
         draw(a, otx_random_bits(a->seed, FACE_STAGE, (uint64_t)face), &f, &c);
         for (int32_t i = 0; i < 4; ++i)
             seen |= a->vert_seen[f.verts[i]];
-        if (choose(a, seen, &c))
-            a->suspects[a->suspect_count++] = face;
+        a->suspects[a->suspect_count] = face;
+        a->suspect_count += choose(a, seen, &c);
         bit = bit_of(a, c.number);
         for (int32_t i = 0; i < 4; ++i)
         {
@@ -239,8 +225,8 @@ draw_all(assigner *a)
 
             if (f.sides[i] >= 0)
                 continue;
-            f.sides[i] = free_type(
-                a, i, (int32_t)((random >> 40) * (uint64_t)a->span >> 24));
+            f.sides[i] =
+                a->free_types[i][(random >> 40) * (uint64_t)a->span >> 24];
             a->edge_types[f.edges[i]] = (uint8_t)(f.sides[i] + 1);
         }
         a->names[face] = f.corner_number;
@@ -251,29 +237,33 @@ draw_all(assigner *a)
 
 /* --------------------------------------------------------------- repairs */
 
+/* The face beyond an edge, -1 where there is none. */
 static inline int32_t
 neighbour(const otx_level *level, int32_t face, int32_t edge)
 {
     const int32_t *faces = level->edge_faces + 2 * (size_t)edge;
 
-    return faces[0] == face ? faces[1] : faces[0];
+    return faces[0] ^ faces[1] ^ face;
 }
 
-/* Whether `number` is that of a face across an edge, but for `but`. */
+/* Whether `number` is that of a face across an edge, but for `but`. Without
+ * branches: which neighbour is equal cannot be foreseen. */
 static bool
 is_beside(const assigner *a, int32_t face, int32_t number, int32_t but)
 {
     const otx_level *level = a->input->level;
 
+    bool found = false;
+
     for (int32_t i = 0; i < 4; ++i)
     {
         const int32_t other = neighbour(
             level, face, level->face_edges[4 * (size_t)face + (size_t)i]);
+        const int32_t name = a->names[other < 0 ? face : other];
 
-        if (other >= 0 && other != but && a->names[other] == number)
-            return true;
+        found |= (other >= 0) & (other != but) & (name == number);
     }
-    return false;
+    return found;
 }
 
 /* Side of the tile on `face` that lies on `edge`. */
@@ -314,7 +304,8 @@ change_side(assigner *a, int32_t face, int32_t i, int32_t old, int32_t type)
     return true;
 }
 
-static void
+/* Whether it came to differ from its neighbours. */
+static bool
 mend_face(assigner *a, int32_t face)
 {
     const otx_tile_name name =
@@ -323,32 +314,56 @@ mend_face(assigner *a, int32_t face)
     for (int32_t i = 0; i < 4; ++i)
         for (int32_t d = 0; d < a->span; ++d)
         {
-            const int32_t type = free_type(a, i, d);
+            const int32_t type = a->free_types[i][d];
 
             if (type != name.sides[i] &&
                 change_side(a, face, i, name.sides[i], type))
-                return;
+                return true;
         }
+    return false;
 }
 
+/* No change makes two neighbours equal, so a face that differs from its own
+ * stays so and leaves the list. */
 static void
 mend(assigner *a)
 {
-    bool found = true;
-
-    for (int32_t pass = 0; pass < REPAIRS && found; ++pass)
+    for (int32_t pass = 0; pass < REPAIRS; ++pass)
     {
-        found = false;
+        int32_t left = 0;
+
         for (int32_t i = 0; i < a->suspect_count; ++i)
         {
             const int32_t face = a->suspects[i];
 
-            if (!is_beside(a, face, a->names[face], face))
-                continue;
-            found = true;
-            mend_face(a, face);
+            a->suspects[left] = face;
+            left +=
+                is_beside(a, face, a->names[face], face) && !mend_face(a, face);
         }
+        a->suspect_count = left;
     }
+}
+
+/* Type `draw` (0 .. span - 1) of a free side. */
+static int32_t
+free_type(const assigner *a, int32_t side, int32_t draw)
+{
+    int32_t type = draw;
+
+    if (!a->input->layout->oriented)
+        return type;
+    if (a->step == 2)
+        type = 2 * draw + (side >> 1);
+    return side & 1 ? type + a->input->layout->boundaries : type;
+}
+
+static void
+set_free_types(assigner *a)
+{
+    for (int32_t i = 0; i < 4; ++i)
+        for (int32_t d = 0; d <= a->span; ++d)
+            a->free_types[i][d] =
+                (uint8_t)free_type(a, i, d == a->span ? 0 : d);
 }
 
 /* A tile's number is a sum over its sides and corners. */
@@ -391,6 +406,7 @@ otx_assign_names(otx_run *run, const otx_assign_input *input, int32_t *names)
     a.step = parity ? 2 : 1;
     if (parity)
         a.span /= 2;
+    set_free_types(&a);
     set_weights(&a);
     if (input->plain)
         draw_all(&a);
