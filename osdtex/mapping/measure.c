@@ -10,6 +10,7 @@
 
 #include "mapping/seam.h"
 #include "mapping/window.h"
+#include "surface/limit.h"
 
 #include <stdlib.h>
 
@@ -344,15 +345,17 @@ survey_face(survey *s, int32_t index, otx_measure *out)
     const double area = polygon_area(face->p, face->size);
     const double uv_area = polygon_area(face->q, face->size);
     const double beyond = overhang(s, face);
-    const bool flipped = uv_area < 0.0 || (uv_area == 0.0 && area > 0.0);
+    const bool flipped =
+        !(uv_area > 0.0) &&
+        !otx_limit_face_is_flat(s->leaf, s->mapping->surface->points, index);
 
     out->area += area * s->density * s->density;
     out->flips += flipped;
-    out->folds += !flipped && has_fold(face);
+    out->folds += uv_area > 0.0 && has_fold(face);
     out->outside += beyond > OTX_SEAM_TOLERANCE;
     out->outside_max = fmax(out->outside_max, beyond);
     use_face(s, face);
-    if (flipped || !singular_values(face, &larger, &smaller))
+    if (!(uv_area > 0.0) || !singular_values(face, &larger, &smaller))
         return;
     series_add(
         &s->l2,

@@ -31,7 +31,7 @@ typedef struct otx_measure
     double lab_step;    /* ... adjacent texels */
     int32_t patches;    /* labels in use */
     int32_t uncovered;  /* faces without a patch or with bad UVs */
-    int32_t flips;      /* faces whose UV area is not positive */
+    int32_t flips;      /* faces with area whose UV area is not positive */
     int32_t folds;      /* others with a reversed corner (quads) */
     int32_t outside;    /* faces that leave a picture that ends */
     double outside_max; /* texels beyond the border, 0 none */

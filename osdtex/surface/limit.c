@@ -3,6 +3,7 @@
 
 #include "math/vec.h"
 
+#include <float.h>
 #include <math.h>
 
 #define STAGE "refine"
@@ -129,6 +130,26 @@ area2_vector(const otx_level *level, const float *points, int32_t face)
         p = q;
     }
     return sum;
+}
+
+bool
+otx_limit_face_is_flat(const otx_level *leaf, const float *points, int32_t face)
+{
+    const int32_t *verts = leaf->face_verts + leaf->face_first[face];
+    const int32_t size = otx_level_face_size(leaf, face);
+    double reach = 0.0, round = 0.0;
+
+    for (int32_t k = 0; k < size; ++k)
+    {
+        const otx_vec3 p = otx_vec3_load(points, verts[k]);
+        const otx_vec3 q = otx_vec3_load(points, verts[(k + 1) % size]);
+
+        reach = fmax(reach, fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z))));
+        round += otx_vec3_length(otx_vec3_sub(q, p));
+    }
+    return !(
+        otx_vec3_length(area2_vector(leaf, points, face)) >
+        (double)FLT_EPSILON * reach * round);
 }
 
 static bool

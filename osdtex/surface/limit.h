@@ -27,4 +27,9 @@ otx_status otx_limit_measure(
     otx_run *run, const otx_level *leaf, const float *points, double *area,
     double *mean_edge_length);
 
+/* Whether a face has no area beyond what rounding its corners to float can
+ * make of nothing. Such a face has no sense: it cannot be reversed. */
+bool otx_limit_face_is_flat(
+    const otx_level *leaf, const float *points, int32_t face);
+
 #endif

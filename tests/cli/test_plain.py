@@ -36,6 +36,44 @@ MESSY_FACES = [[1, 2, 3], [1, 2, 4], [2, 1, 6], [1, 3, 4], [1, 3, 5],
                [1, 2, 3]]
 
 
+
+
+def junctions(side):
+    """A curved sheet; T-junctions between rows closed by flat triangles."""
+    points, rows, faces = [], [], []
+
+    def point(x, y):
+        points.append(f"v {x} {y} {(x - side) * (x - side) / 16 + y * y / 64}")
+        return len(points)
+
+    for y in range(side + 1):
+        corners = [point(2 * x, y) for x in range(side + 1)]
+        ends = [points[i - 1].split() for i in corners]
+        middles = []
+        for a, b in zip(ends, ends[1:]):
+            points.append("v " + " ".join(
+                str((float(p) + float(q)) / 2) for p, q in zip(a[1:], b[1:])))
+            middles.append(len(points))
+        rows.append((corners, middles))
+    for (low, middles), (high, _) in zip(rows, rows[1:]):
+        for x in range(side):
+            a, b, c, d, m = (
+                low[x], low[x + 1], high[x + 1], high[x], middles[x])
+            faces += [(a, m, d), (m, c, d), (m, b, c)]
+    for (corners, middles), _ in zip(rows[1:-1], rows):
+        for x in range(side):
+            faces.append((corners[x], corners[x + 1], middles[x]))
+    return "".join(p + "\n" for p in points) + "".join(
+        "f %d %d %d\n" % f for f in faces)
+
+
+def uv_areas(path):
+    uvs = [[float(x) for x in line.split()[1:3]] for line in lines(path, "vt")]
+    for line in lines(path, "f"):
+        a, b, c = (uvs[int(p.split("/")[1]) - 1] for p in line.split()[1:])
+        yield ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+
+
 def lines(path, word):
     return [line for line in path.read_text().splitlines()
             if line.startswith(word + " ")]
@@ -72,6 +110,16 @@ class Plain(ProgramTest):
         out = self.folder / "out.obj"
         self.assertEqual(lines(out, "v"), MESSY_POINTS)
         self.assertEqual(faces(out), MESSY_FACES)
+
+    def test_faces_without_area_are_not_reversed(self):
+        mesh = self.folder / "junctions.obj"
+        mesh.write_text(junctions(8))
+        report = self.folder / "out.json"
+        self.assert_exit(
+            self.plain(mesh, "--scale", "6", "--json-report", report), 0)
+        distortion = json.loads(report.read_text())["distortion"]
+        self.assertEqual(distortion["flips"], 0)
+        self.assertGreater(min(uv_areas(self.folder / "out.obj")), 0)
 
     def test_a_cage_must_be_a_manifold(self):
         result = self.run_map(self.messy(), EXEMPLAR, "--scheme", "bilinear")

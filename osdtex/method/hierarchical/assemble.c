@@ -134,6 +134,7 @@ otx_assemble(otx_mapper *m, otx_mapping *out)
     out->face_patch = OTX_NEW(m->run->arena, int32_t, leaf->face_count);
     if (!out->uvs || !out->face_patch)
         return otx_fail_memory(m->run, "map");
+    OTX_TRY(otx_straighten(m));
     OTX_TRY(write_uvs(m, out));
     return number_patches(m, out);
 }

@@ -203,6 +203,10 @@ bool otx_follow_allows(const otx_mapper *m, const otx_node *node, double angle);
 double
 otx_follow_deviation(const otx_mapper *m, const otx_node *node, int32_t i);
 
+/* straighten.c: sets right triangles without area that came out reversed, as
+ * far as no other face suffers. */
+otx_status otx_straighten(otx_mapper *m);
+
 /* band.c: cuts a mask triangle where it leaves the band.
  *
  *   reach  of its corners, in the unit of limit

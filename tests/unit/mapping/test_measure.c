@@ -3,6 +3,8 @@
 
 #include "mapping/measure.h"
 
+#include <string.h>
+
 typedef struct scene
 {
     otx_run *run;
@@ -84,6 +86,30 @@ mirrored_faces_are_flips_and_crossed_ones_folds(void **state)
     m = measured(&s);
     assert_int_equal(m.flips, 1);
     assert_int_equal(m.folds, 1);
+    test_run_destroy(s.run);
+}
+
+static void
+faces_without_area_are_no_flips(void **state)
+{
+    scene s = scene_create(2);
+    const otx_level *leaf = otx_surface_leaf(s.surface);
+    const size_t numbers = 3 * (size_t)leaf->vert_count;
+    const int32_t *verts = leaf->face_verts + leaf->face_first[3];
+    float *points = OTX_NEW(s.run->arena, float, numbers);
+
+    (void)state;
+    swap_corners(s.mapping, 12, 13);
+    swap_corners(s.mapping, 14, 15);
+    assert_int_equal(measured(&s).flips, 1);
+    memcpy(points, s.surface->points, numbers * sizeof *points);
+    for (int c = 0; c < 3; ++c)
+    {
+        points[3 * verts[2] + c] = points[3 * verts[1] + c];
+        points[3 * verts[3] + c] = points[3 * verts[0] + c];
+    }
+    s.surface->points = points;
+    assert_int_equal(measured(&s).flips, 0);
     test_run_destroy(s.run);
 }
 
@@ -294,6 +320,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_flat_chart_is_perfect),
         cmocka_unit_test(mirrored_faces_are_flips_and_crossed_ones_folds),
+        cmocka_unit_test(faces_without_area_are_no_flips),
         cmocka_unit_test(a_planted_step_has_its_energy),
         cmocka_unit_test(stretch_has_its_closed_form),
         cmocka_unit_test(uvs_beyond_a_border_and_missing_faces_are_counted),
