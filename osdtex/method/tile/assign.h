@@ -4,8 +4,8 @@
  * earlier faces have decided and chooses the others, so that its tile is not
  * one that is already around its vertices, and is one that is little used.
  * What is around a vertex is kept as 64 bits, so the pass reads and writes
- * each array once: it is bound by memory. A second pass changes an edge where
- * two neighbours still show the same tile. */
+ * each array once. A second pass changes an edge where two neighbours still
+ * show the same tile. */
 #ifndef OTX_METHOD_TILE_ASSIGN_H
 #define OTX_METHOD_TILE_ASSIGN_H
 
