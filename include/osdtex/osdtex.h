@@ -546,7 +546,8 @@ extern "C"
          * constraint says otherwise. NULL: what the file says, else smooth. */
         const char *follow;
         int32_t symmetry; /* 1 arrow, 2 line, 4 cross; 0: the file's, else 2 */
-        int32_t reserved;
+        int32_t whole_table; /* 1: a CSV needs a line for each of the cage's
+                              * faces; 0: what it leaves out is free */
         /* How far the texture's size may give way so that rows can follow the
          * curvature, in octaves; 0: not at all. */
         double octaves;
@@ -962,6 +963,12 @@ extern "C"
      * "singularities". */
     OSDTEX_API osdtex_status osdtex_model_create_field(
         osdtex_context *context, const osdtex_field *field, osdtex_model **out);
+    /* A field to be shown on a model that was read, which borrows it: that of
+     * the same OBJ read as a cage of scheme none, on level 0. ARGUMENT where
+     * the field's surface has other faces than the model. */
+    OSDTEX_API osdtex_status osdtex_model_add_field(
+        osdtex_context *context, osdtex_model *model,
+        const osdtex_field *field);
     OSDTEX_API void osdtex_model_destroy(osdtex_model *model);
 
     typedef struct osdtex_render_options

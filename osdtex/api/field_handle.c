@@ -157,6 +157,9 @@ create(
         otx_map_input_constraints(run, ours.constraints, ours.follow, &set));
     if (set)
         h->set = *set;
+    if (ours.whole_table)
+        OTX_TRY(otx_constraint_check_table(
+            run, &h->set, surface->surface.cage->face_count));
     if (ours.symmetry != 0)
         h->set.symmetry = ours.symmetry;
     h->request.symmetry = h->set.symmetry > 0 ? h->set.symmetry : 2;
@@ -214,6 +217,7 @@ add_item(
     };
     *out = *from;
     out->path = NULL;
+    out->is_table = false;
     out->items = items;
     out->count = from->count + 1;
     return OSDTEX_OK;

@@ -55,7 +55,7 @@ take_dots(otx_run *run, const otx_direction *field, otx_overlay *out)
 otx_status
 otx_field_view(
     otx_run *run, const otx_surface *surface, const otx_guide *guide,
-    otx_overlay *out)
+    bool has_lines, otx_overlay *out)
 {
     const double diagonal = surface->cage->diagonal;
     otx_connection connection;
@@ -70,6 +70,7 @@ otx_field_view(
         run, surface, surface->level_count - 1, &connection));
     OTX_TRY(otx_direction_from_vectors(
         run, &connection, guide->symmetry, guide->directions, &field));
-    OTX_TRY(take_lines(run, &field, out));
+    if (has_lines)
+        OTX_TRY(take_lines(run, &field, out));
     return take_dots(run, &field, out);
 }

@@ -5,10 +5,10 @@
 #include "mapping/mapping.h"
 #include "render/overlay.h"
 
-/* Lines along the directions of a guide, and its singularities, on the leaf
- * level. In run->arena. */
+/* The singularities of a guide on the leaf level, and with `has_lines` lines
+ * along its directions. In run->arena. */
 otx_status otx_field_view(
     otx_run *run, const otx_surface *surface, const otx_guide *guide,
-    otx_overlay *out);
+    bool has_lines, otx_overlay *out);
 
 #endif

@@ -68,6 +68,7 @@ read_file(otx_run *run, const char *path, otx_constraint_set *set)
     set->path = file.path;
     set->symmetry = file.symmetry;
     set->follow_length = file.follow_length;
+    set->is_table = file.is_table;
     set->count = file.count;
     set->items = items;
     if (file.follow && strcmp(file.follow, "axis") != 0)

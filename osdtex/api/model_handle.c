@@ -411,6 +411,44 @@ osdtex_model_create_field(
     return otx_call_end(&call, create_from_field(&call.run, field, out));
 }
 
+static otx_status
+add_field(otx_run *run, osdtex_model *model, const osdtex_field *field)
+{
+    const otx_scene *scene;
+    const otx_level *leaf;
+
+    if (!model || !field)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
+            "no model or no field is given");
+    scene = &model->scene;
+    leaf = field->connection.level;
+    if (scene->face_count != leaf->face_count)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
+            "the field is of %d faces, but the model has %d",
+            (int)leaf->face_count, (int)scene->face_count);
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        if (scene->face_first[f + 1] != leaf->face_first[f + 1])
+            return otx_fail(
+                run, OSDTEX_ERROR_ARGUMENT, "model",
+                (otx_where){NULL, 0, f, -1},
+                "a face of the model has other corners than that of the field");
+    model->surface = &field->surface->surface;
+    model->guide = &field->guide;
+    return OSDTEX_OK;
+}
+
+osdtex_status
+osdtex_model_add_field(
+    osdtex_context *context, osdtex_model *model, const osdtex_field *field)
+{
+    otx_call call;
+
+    OTX_TRY(otx_call_begin(context, "model", &call));
+    return otx_call_drop(&call, add_field(&call.run, model, field));
+}
+
 void
 osdtex_model_destroy(osdtex_model *model)
 {

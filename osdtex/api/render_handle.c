@@ -89,7 +89,9 @@ render(
     if (model->guide &&
         (how.show == OTX_SHOW_FIELD || how.show == OTX_SHOW_SINGULARITIES))
     {
-        OTX_TRY(otx_field_view(run, model->surface, model->guide, &overlay));
+        OTX_TRY(otx_field_view(
+            run, model->surface, model->guide, how.show == OTX_SHOW_FIELD,
+            &overlay));
         how.overlay = &overlay;
     }
     if (model->lattice && how.show == OTX_SHOW_CELLS)

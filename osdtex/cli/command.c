@@ -101,6 +101,7 @@ static const otx_flag_id tiles_flags[] = {
 static const otx_flag_id render_flags[] = {
     OTX_FLAG_OUTPUT,       OTX_FLAG_CAMERA,      OTX_FLAG_TURN,
     OTX_FLAG_SIZE,         OTX_FLAG_SAMPLES,     OTX_FLAG_SHOW,
+    OTX_FLAG_CONSTRAINTS,  OTX_FLAG_FOLLOW,      OTX_FLAG_SYMMETRY,
     OTX_FLAG_UNLIT,        OTX_FLAG_COLORCONFIG, OTX_FLAG_THREADS,
     OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_DRY_RUN,     OTX_FLAG_VERBOSE,
     OTX_FLAG_QUIET,        OTX_FLAG_HELP,        OTX_FLAG_VERSION,
@@ -181,9 +182,15 @@ static const otx_command commands[] = {
      bake_flags, otx_bake_command_run},
     {"render", "MODEL.obj", 1, 1, "take a picture of a textured model",
      "Ray-traces an OBJ with the textures that its MTL names. PNG is for the "
-     "eye\n(sRGB), EXR is scene-linear.",
+     "eye\n(sRGB), EXR is scene-linear. --show field and --show singularities "
+     "make a\nfield on the OBJ's own faces: the smoothest, or exactly that of "
+     "a "
+     "table that\n`osdtex field CAGE.obj --level N -o FILE.csv` wrote for the "
+     "level of the OBJ.",
      "osdtex render pebbles.obj -o pebbles.png --camera front --size 800x800\n"
-     "osdtex render pebbles.obj -o patches.png --show patches --unlit\n",
+     "osdtex render pebbles.obj -o patches.png --show patches --unlit\n"
+     "osdtex render wood.obj -o field.png --show field --constraints "
+     "field.csv\n",
      render_flags, otx_render_command_run},
     {"field", "CAGE.obj", 1, 1, "show or write a direction field on a cage",
      "Solves for the field of directions that textures follow: the smoothest, "

@@ -1,4 +1,5 @@
 /* field_command.c -- osdtex field: which way a texture would run on a cage. */
+#include "cli/field_flags.h"
 #include "cli/inputs.h"
 #include "cli/picture_flags.h"
 #include "cli/session.h"
@@ -28,11 +29,9 @@ typedef struct job
 } job;
 
 static bool
-parse_numbers(job *j)
+parse_level(job *j)
 {
     const char *level = j->values->text[OTX_FLAG_LEVEL];
-    const char *symmetry = j->values->text[OTX_FLAG_SYMMETRY];
-    const char *octaves = j->values->text[OTX_FLAG_OCTAVES];
     int64_t number;
 
     j->level = -1;
@@ -47,23 +46,6 @@ parse_numbers(job *j)
         }
         j->level = (int32_t)number;
     }
-    if (symmetry)
-    {
-        if (!otx_value_int(symmetry, 1, 4, &number) || number == 3)
-        {
-            otx_session_refuse(
-                "--symmetry takes 1, 2 or 4, not '%s'", symmetry);
-            return false;
-        }
-        j->field_options.symmetry = (int32_t)number;
-    }
-    if (octaves && (!otx_value_real(octaves, &j->field_options.octaves) ||
-                    j->field_options.octaves < 0.0))
-    {
-        otx_session_refuse(
-            "--octaves takes a number of at least 0, not '%s'", octaves);
-        return false;
-    }
     return true;
 }
 
@@ -71,9 +53,6 @@ static bool
 parse(job *j, const otx_flag_values *values)
 {
     *j = (job){.values = values, .output = values->text[OTX_FLAG_OUTPUT]};
-    j->field_options = osdtex_field_options_default();
-    j->field_options.constraints = values->text[OTX_FLAG_CONSTRAINTS];
-    j->field_options.follow = values->text[OTX_FLAG_FOLLOW];
     j->is_table = j->output && otx_value_has_extension(j->output, ".csv");
     if (!j->output ||
         (!j->is_table && !otx_value_has_extension(j->output, ".png") &&
@@ -84,7 +63,8 @@ parse(job *j, const otx_flag_values *values)
             "or NAME.exr");
         return false;
     }
-    if (!otx_inputs_cage(values, &j->cage_options) || !parse_numbers(j) ||
+    if (!otx_inputs_cage(values, &j->cage_options) || !parse_level(j) ||
+        !otx_field_flags_parse(values, &j->field_options) ||
         !otx_picture_flags_parse(values, &j->picture))
         return false;
     if (!j->picture.show)

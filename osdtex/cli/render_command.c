@@ -1,57 +1,149 @@
-/* render_command.c -- osdtex render: a picture of a written model. */
+/* render_command.c -- osdtex render: a picture of a written model.
+ *
+ * A field is not in an OBJ: to be shown it is made anew on the model's own
+ * faces, as on a plain mesh. */
+#include "cli/field_flags.h"
 #include "cli/picture_flags.h"
 #include "cli/session.h"
 #include "cli/value.h"
 
 #include <stdio.h>
+#include <string.h>
+
+typedef struct job
+{
+    const char *path;
+    const char *output;
+    bool dry_run;
+    bool shows_field;
+    osdtex_render_options picture;
+    osdtex_field_options field_options;
+
+    osdtex_model *model;
+    osdtex_image *image;
+    osdtex_cage *cage; /* the model as a plain mesh; NULL without a field */
+    osdtex_surface *surface;
+    osdtex_field *field;
+} job;
+
+static bool
+parse_field(job *j, const otx_flag_values *values)
+{
+    static const otx_flag_id needs[] = {
+        OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOLLOW, OTX_FLAG_SYMMETRY};
+    const char *show = j->picture.show;
+
+    j->shows_field = show && (strcmp(show, "field") == 0 ||
+                              strcmp(show, "singularities") == 0);
+    for (int i = 0; i < 3 && !j->shows_field; ++i)
+        if (values->text[needs[i]])
+        {
+            otx_session_refuse(
+                "--%s is for --show field and --show singularities",
+                otx_flag_at(needs[i])->name);
+            return false;
+        }
+    if (!otx_field_flags_parse(values, &j->field_options))
+        return false;
+    /* In a table of another level the faces are not those of the model. */
+    j->field_options.whole_table = 1;
+    return true;
+}
+
+static bool
+parse(job *j, const otx_flag_values *values)
+{
+    *j = (job){
+        .path = values->operands[0],
+        .output = values->text[OTX_FLAG_OUTPUT],
+        .dry_run = values->text[OTX_FLAG_DRY_RUN] != NULL};
+    if (!j->output || (!otx_value_has_extension(j->output, ".png") &&
+                       !otx_value_has_extension(j->output, ".exr")))
+    {
+        otx_session_refuse(
+            "osdtex render writes a picture: -o NAME.png or NAME.exr");
+        return false;
+    }
+    return otx_picture_flags_parse(values, &j->picture) &&
+           parse_field(j, values);
+}
 
 static osdtex_status
-render(
-    otx_session *session, const char *model_path, const char *output,
-    const osdtex_render_options *options, bool dry_run)
+add_field(osdtex_context *context, job *j)
 {
-    osdtex_context *context = session->context;
-    osdtex_model *model;
-    osdtex_image *image = NULL;
-    osdtex_status status = osdtex_model_read(context, model_path, &model);
+    osdtex_cage_options plain = osdtex_cage_options_default();
+    osdtex_surface_options level = osdtex_surface_options_default();
+    osdtex_status status;
 
-    if (status == OSDTEX_OK && dry_run)
-        printf(
-            "would render %s into %s: %d x %d, %d x %d rays a pixel\n",
-            model_path, output, options->width, options->height,
-            options->samples, options->samples);
-    else if (status == OSDTEX_OK)
-    {
-        status = osdtex_render(context, model, options, &image);
-        if (status == OSDTEX_OK)
-            status = osdtex_image_write(context, image, output);
-        if (status == OSDTEX_OK)
-            otx_session_say(
-                session, "wrote %s, %.1f s", output,
-                otx_session_seconds(session));
-    }
-    osdtex_image_destroy(image);
-    osdtex_model_destroy(model);
+    plain.scheme = OSDTEX_SCHEME_NONE;
+    level.level = 0;
+    status = osdtex_cage_read(context, j->path, &plain, &j->cage);
+    if (status == OSDTEX_OK)
+        status = osdtex_surface_refine(context, j->cage, &level, &j->surface);
+    if (status == OSDTEX_OK)
+        status = osdtex_field_create(
+            context, j->surface, &j->field_options, &j->field);
+    if (status == OSDTEX_OK)
+        status = osdtex_model_add_field(context, j->model, j->field);
     return status;
+}
+
+static osdtex_status
+draw(otx_session *session, job *j)
+{
+    osdtex_status status =
+        osdtex_render(session->context, j->model, &j->picture, &j->image);
+
+    if (status == OSDTEX_OK)
+        status = osdtex_image_write(session->context, j->image, j->output);
+    if (status == OSDTEX_OK)
+        otx_session_say(
+            session, "wrote %s, %.1f s", j->output,
+            otx_session_seconds(session));
+    return status;
+}
+
+static osdtex_status
+render(otx_session *session, job *j)
+{
+    osdtex_status status =
+        osdtex_model_read(session->context, j->path, &j->model);
+
+    if (status == OSDTEX_OK && j->shows_field)
+        status = add_field(session->context, j);
+    if (status != OSDTEX_OK)
+        return status;
+    if (!j->dry_run)
+        return draw(session, j);
+    printf(
+        "would render %s into %s: %d x %d, %d x %d rays a pixel\n", j->path,
+        j->output, j->picture.width, j->picture.height, j->picture.samples,
+        j->picture.samples);
+    return OSDTEX_OK;
+}
+
+static void
+drop(const job *j)
+{
+    osdtex_image_destroy(j->image);
+    osdtex_model_destroy(j->model);
+    osdtex_field_destroy(j->field);
+    osdtex_surface_destroy(j->surface);
+    osdtex_cage_destroy(j->cage);
 }
 
 int
 otx_render_command_run(const otx_flag_values *values)
 {
-    const char *output = values->text[OTX_FLAG_OUTPUT];
-    osdtex_render_options options;
+    osdtex_status status;
     otx_session session;
+    job j;
 
-    if (!output || (!otx_value_has_extension(output, ".png") &&
-                    !otx_value_has_extension(output, ".exr")))
-        return otx_session_refuse(
-            "osdtex render writes a picture: -o NAME.png or NAME.exr");
-    if (!otx_picture_flags_parse(values, &options))
+    if (!parse(&j, values))
         return OTX_EXIT_USAGE;
     if (!otx_session_begin(&session, values))
         return session.exit_code;
-    return otx_session_end(
-        &session, render(
-                      &session, values->operands[0], output, &options,
-                      values->text[OTX_FLAG_DRY_RUN] != NULL));
+    status = render(&session, &j);
+    drop(&j);
+    return otx_session_end(&session, status);
 }

@@ -34,7 +34,11 @@ check(
     const otx_cage *cage = c->surface->cage;
 
     if (item->face >= cage->face_count)
-        return refuse(run, set, index, "names a face that the cage lacks");
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "field",
+            (otx_where){set->path, 0, item->face, -1},
+            "constraint %d names a face that the cage lacks, which has %d",
+            (int)index + 1, (int)cage->face_count);
     if (item->face >= 0 && cage->face_hole && cage->face_hole[item->face])
         return refuse(run, set, index, "lies on a hole");
     if (item->face < 0 && (!is_finite(item->point) || !isfinite(item->radius) ||
@@ -52,6 +56,40 @@ check(
     if (item->has_material && !(item->material >= 0.0 && item->material <= 1.0))
         return refuse(run, set, index, "has a material outside 0 .. 1");
     return OSDTEX_OK;
+}
+
+otx_status
+otx_constraint_check_table(
+    otx_run *run, const otx_constraint_set *set, int32_t face_count)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    uint8_t *seen;
+    int32_t count = 0;
+
+    if (!set->is_table)
+        return OSDTEX_OK;
+    seen = OTX_ZNEW(run->scratch, uint8_t, face_count);
+    if (!seen)
+        return otx_fail_memory(run, "field");
+    for (int32_t i = 0; i < set->count; ++i)
+    {
+        const int32_t face = set->items[i].face;
+
+        if (face < face_count && !seen[face])
+        {
+            seen[face] = 1;
+            ++count;
+        }
+    }
+    otx_arena_release(run->scratch, mark);
+    if (count == face_count && set->count == face_count)
+        return OSDTEX_OK;
+    return otx_fail(
+        run, OSDTEX_ERROR_ARGUMENT, "field", (otx_where){set->path, 0, -1, -1},
+        "the table has %d lines, but the mesh has %d faces, and each needs "
+        "one; `osdtex field CAGE.obj --level N -o NAME.csv` with the level of "
+        "the mesh writes them",
+        (int)set->count, (int)face_count);
 }
 
 /* The face whose centre is nearest to a point. */

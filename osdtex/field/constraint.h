@@ -39,9 +39,15 @@ typedef struct otx_constraint_set
     otx_vec3 axis;        /* of OTX_FOLLOW_AXIS */
     double follow_length; /* over which it gives way, scene units; 0: a
                            * twentieth of the diagonal */
+    bool is_table;        /* has a line a face, if all are there */
     int32_t count;
     const otx_constraint *items;
 } otx_constraint_set;
+
+/* Whether a set that is a table has one line for each face of a cage.
+ * ARGUMENT, MEMORY. */
+otx_status otx_constraint_check_table(
+    otx_run *run, const otx_constraint_set *set, int32_t face_count);
 
 /* Turns constraints into pins on the faces of a level, in run->arena. `set`
  * may be NULL. ARGUMENT, naming the constraint, for what cannot be held: a

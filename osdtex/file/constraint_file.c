@@ -333,12 +333,13 @@ otx_constraint_file_read(
     otx_text text;
     otx_status status;
 
-    *out = (otx_constraint_file){.path = otx_arena_strdup(run->arena, path)};
+    *out = (otx_constraint_file){
+        .path = otx_arena_strdup(run->arena, path), .is_table = is_csv(path)};
     if (!out->path)
         return otx_fail_memory(run, stage);
     OTX_TRY(otx_text_read(run, stage, path, BYTES_MAX, &text));
     status =
-        is_csv(path) ? read_csv(run, &text, out) : read_json(run, &text, out);
+        out->is_table ? read_csv(run, &text, out) : read_json(run, &text, out);
     otx_arena_release(run->scratch, mark);
     return status;
 }

@@ -27,6 +27,7 @@ typedef struct otx_constraint_file
     const char *follow;   /* "axis", "up", "edges" or "curvature"; NULL none */
     double axis[3];       /* of "axis" */
     double follow_length; /* 0 none said */
+    bool is_table;        /* a CSV: a line a face */
     int32_t count;
     otx_constraint_line *lines;
 } otx_constraint_file;

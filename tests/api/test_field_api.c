@@ -52,8 +52,8 @@ typedef struct scene
 } scene;
 
 static osdtex_status
-open_scene(
-    scene *s, const char *path, int32_t level,
+open_scheme(
+    scene *s, const char *path, int32_t level, const osdtex_cage_options *how,
     const osdtex_context_options *options)
 {
     osdtex_surface_options refine = osdtex_surface_options_default();
@@ -63,11 +63,19 @@ open_scene(
     refine.level = level;
     status = osdtex_context_create(options, &s->context);
     if (status == OSDTEX_OK)
-        status = osdtex_cage_read(s->context, path, NULL, &s->cage);
+        status = osdtex_cage_read(s->context, path, how, &s->cage);
     if (status == OSDTEX_OK)
         status =
             osdtex_surface_refine(s->context, s->cage, &refine, &s->surface);
     return status;
+}
+
+static osdtex_status
+open_scene(
+    scene *s, const char *path, int32_t level,
+    const osdtex_context_options *options)
+{
+    return open_scheme(s, path, level, NULL, options);
 }
 
 static void
@@ -315,6 +323,90 @@ a_table_is_taken_back_as_constraints(void **state)
     close_scene(&s);
 }
 
+/* Pictures of a model with and without its field differ. */
+static void
+expect_drawn(osdtex_context *context, osdtex_model *model, const char *show)
+{
+    osdtex_render_options options = osdtex_render_options_default();
+    osdtex_image *image[2];
+    size_t bytes;
+
+    options.width = options.height = 64;
+    options.samples = 1;
+    for (int i = 0; i < 2; ++i)
+    {
+        options.show = i == 0 ? show : "texture";
+        assert_int_equal(
+            osdtex_render(context, model, &options, &image[i]), OSDTEX_OK);
+    }
+    bytes = sizeof(float) * 64 * 64 *
+            (size_t)osdtex_image_describe(image[0])->channels;
+    assert_memory_not_equal(
+        osdtex_image_describe(image[0])->pixels,
+        osdtex_image_describe(image[1])->pixels, bytes);
+    osdtex_image_destroy(image[0]);
+    osdtex_image_destroy(image[1]);
+}
+
+/* A table that has a line for each face of a plain mesh is its field, and is
+ * shown on that mesh as a model; a table of other faces is refused. */
+static void
+a_table_is_shown_on_a_written_model(void **state)
+{
+    static const char sphere[] = "models/cages/sphere.obj";
+    osdtex_cage_options plain = osdtex_cage_options_default();
+    osdtex_field_options options = osdtex_field_options_default();
+    const osdtex_field_info *a, *b;
+    osdtex_field *field, *again;
+    osdtex_model *model;
+    char path[64];
+    scene s, coarse;
+
+    (void)state;
+    snprintf(path, sizeof path, "/tmp/osdtex-shown-%d.csv", (int)getpid());
+    plain.scheme = OSDTEX_SCHEME_NONE;
+    assert_int_equal(open_scheme(&s, sphere, 0, &plain, NULL), OSDTEX_OK);
+    field = make_field(&s, "0,1,0.5", 2);
+    a = osdtex_field_describe(field);
+    assert_int_equal(osdtex_field_write(s.context, field, 0, path), OSDTEX_OK);
+    options.constraints = path;
+    options.whole_table = 1;
+    assert_int_equal(
+        osdtex_field_create(s.context, s.surface, &options, &again), OSDTEX_OK);
+    b = osdtex_field_describe(again);
+    assert_int_equal(a->singularity_count, b->singularity_count);
+    for (int32_t i = 0; i < a->singularity_count; ++i)
+        assert_int_equal(
+            a->singularities[i].vertex, b->singularities[i].vertex);
+    for (int32_t i = 0; i < 3 * a->face_count; ++i)
+        assert_true(fabs(a->directions[i] - b->directions[i]) < 1e-5);
+    assert_int_equal(osdtex_model_read(s.context, sphere, &model), OSDTEX_OK);
+    assert_int_equal(
+        osdtex_model_add_field(s.context, model, again), OSDTEX_OK);
+    expect_drawn(s.context, model, "field");
+    expect_drawn(s.context, model, "singularities");
+
+    /* Neither the field nor the table of the mesh fits another one. */
+    assert_int_equal(open_scene(&coarse, sphere, 1, NULL), OSDTEX_OK);
+    osdtex_field_destroy(field);
+    field = make_field(&coarse, NULL, 2);
+    assert_int_equal(
+        osdtex_model_add_field(s.context, model, field), OSDTEX_ERROR_ARGUMENT);
+    assert_non_null(strstr(last_message(&s), "but the model has"));
+    assert_int_equal(
+        osdtex_field_write(coarse.context, field, 1, path), OSDTEX_OK);
+    osdtex_model_destroy(model);
+    osdtex_field_destroy(again);
+    assert_int_equal(
+        osdtex_field_create(s.context, s.surface, &options, &again),
+        OSDTEX_ERROR_ARGUMENT);
+    assert_non_null(strstr(last_message(&s), "each needs one"));
+    remove(path);
+    osdtex_field_destroy(field);
+    close_scene(&coarse);
+    close_scene(&s);
+}
+
 static osdtex_status
 make_and_edit(scene *s)
 {
@@ -371,6 +463,7 @@ main(void)
         cmocka_unit_test(an_edit_changes_its_area_only),
         cmocka_unit_test(what_cannot_be_held_is_refused_in_a_sentence),
         cmocka_unit_test(a_table_is_taken_back_as_constraints),
+        cmocka_unit_test(a_table_is_shown_on_a_written_model),
         cmocka_unit_test(failing_allocations_leak_nothing),
     };
 

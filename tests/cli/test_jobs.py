@@ -170,6 +170,31 @@ class Jobs(ProgramTest):
                 self.assert_exit(result, 0)
                 self.assertGreater(picture.stat().st_size, 100)
 
+    def test_render_of_a_field_on_what_was_written(self):
+        self.assert_exit(self.run_map(CAGE, EXEMPLAR, *QUICK), 0)
+
+        def table(level):
+            path = self.folder / f"field{level}.csv"
+            self.assert_exit(
+                self.run_program(
+                    "field", CAGE, "-o", path, "--follow", "curvature",
+                    "--level", level), 0)
+            return path
+
+        def render(*arguments):
+            return self.run_program(
+                "render", self.folder / "out.obj", "-o",
+                self.folder / "x.png", "--size", "64x48", "--samples", "1",
+                *arguments)
+
+        for show in ("field", "singularities"):
+            for more in ((), ("--follow", "1,0,0", "--symmetry", "4"),
+                         ("--constraints", table("2"))):
+                self.assert_exit(render("--show", show, *more), 0)
+        result = render("--show", "field", "--constraints", table("1"))
+        self.assert_error(
+            result, 1, "the table has 64 lines, but the mesh has 256 faces")
+
     def test_render_without_material_is_grey(self):
         picture = self.folder / "x.png"
         (self.folder / "m.obj").write_text(

@@ -129,6 +129,12 @@ class Mistakes(ProgramTest):
         self.refused(
             "did you mean 'patches'?", "render", CAGE, "-o", out, "--show",
             "patchs")
+        self.refused(
+            "--follow is for --show field", "render", CAGE, "-o", out,
+            "--follow", "up")
+        self.refused(
+            "--symmetry takes", "render", CAGE, "-o", out, "--show", "field",
+            "--symmetry", "3")
 
     def test_outputs_may_not_replace_inputs(self):
         cage = self.folder / "cage.obj"
