@@ -149,6 +149,154 @@ every_kind_of_following_obeys_poincare_hopf(void **state)
         }
 }
 
+/* V - E + F of a closed surface: each edge has two faces. */
+static int32_t
+euler_of(const scene *s)
+{
+    const osdtex_surface_info *leaf = osdtex_surface_describe(s->surface);
+    const int32_t corners = leaf->face_first[leaf->face_count];
+
+    return leaf->vert_count - corners / 2 + leaf->face_count;
+}
+
+/* Both schemes and none, components, handles. */
+static void
+indices_sum_to_the_euler_characteristic(void **state)
+{
+    static const struct
+    {
+        const char *name;
+        osdtex_scheme scheme;
+        int32_t level;
+        int32_t euler;
+    } cases[] = {
+        {"loop_closed", OSDTEX_SCHEME_LOOP, 2, 2},
+        {"loop_closed", OSDTEX_SCHEME_NONE, 0, 2},
+        {"torus", OSDTEX_SCHEME_CATMARK, 1, 0},
+        {"torus", OSDTEX_SCHEME_NONE, 0, 0},
+        {"double_torus", OSDTEX_SCHEME_CATMARK, 1, -2},
+        {"double_torus", OSDTEX_SCHEME_NONE, 0, -2},
+        {"creature", OSDTEX_SCHEME_BILINEAR, 1, 2},
+    };
+    osdtex_cage_options how = osdtex_cage_options_default();
+    scene s;
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i)
+        for (int32_t symmetry = 1; symmetry <= 4; symmetry *= 2)
+        {
+            const osdtex_field_info *info;
+            osdtex_field *field;
+            double sum = 0.0;
+            char path[64];
+
+            snprintf(path, sizeof path, "models/cages/%s.obj", cases[i].name);
+            how.scheme = cases[i].scheme;
+            assert_int_equal(
+                open_scheme(&s, path, cases[i].level, &how, NULL), OSDTEX_OK);
+            assert_int_equal(euler_of(&s), cases[i].euler);
+            field = make_field(&s, NULL, symmetry);
+            info = osdtex_field_describe(field);
+            for (int32_t k = 0; k < info->singularity_count; ++k)
+                sum += info->singularities[k].index;
+            assert_true(fabs(sum - cases[i].euler) < 1e-9);
+            osdtex_field_destroy(field);
+            close_scene(&s);
+        }
+}
+
+static void
+open_and_several_components_have_directions_everywhere(void **state)
+{
+    static const struct
+    {
+        const char *name;
+        osdtex_scheme scheme;
+    } cases[] = {
+        {"several_components", OSDTEX_SCHEME_CATMARK},
+        {"open_boundary", OSDTEX_SCHEME_CATMARK},
+        {"loop_open", OSDTEX_SCHEME_LOOP},
+        {"open_boundary", OSDTEX_SCHEME_NONE},
+        {"several_components", OSDTEX_SCHEME_NONE},
+    };
+    osdtex_cage_options how = osdtex_cage_options_default();
+    scene s;
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i)
+    {
+        const osdtex_field_info *info;
+        osdtex_field *field;
+        char path[64];
+
+        snprintf(path, sizeof path, "models/cages/%s.obj", cases[i].name);
+        how.scheme = cases[i].scheme;
+        assert_int_equal(
+            open_scheme(
+                &s, path, how.scheme == OSDTEX_SCHEME_NONE ? 0 : 2, &how, NULL),
+            OSDTEX_OK);
+        field = make_field(&s, "1,2,3", 2);
+        info = osdtex_field_describe(field);
+        for (int32_t f = 0; f < info->face_count; ++f)
+        {
+            const float *d = info->directions + 3 * (size_t)f;
+
+            assert_true(
+                fabs(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - 1.0) < 1e-5);
+        }
+        osdtex_field_destroy(field);
+        close_scene(&s);
+    }
+}
+
+static osdtex_status
+make_from_lines(const char *cage, const char *lines, char message[400])
+{
+    osdtex_field_options options = osdtex_field_options_default();
+    osdtex_field *field = NULL;
+    osdtex_status status;
+    char path[64];
+    FILE *file;
+    scene s;
+
+    snprintf(path, sizeof path, "/tmp/osdtex-lines-%d.csv", (int)getpid());
+    file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(lines, file);
+    assert_int_equal(fclose(file), 0);
+    assert_int_equal(open_scene(&s, cage, 1, NULL), OSDTEX_OK);
+    options.constraints = path;
+    status = osdtex_field_create(s.context, s.surface, &options, &field);
+    snprintf(message, 400, "%s", last_message(&s));
+    remove(path);
+    osdtex_field_destroy(field);
+    close_scene(&s);
+    return status;
+}
+
+static void
+contradictions_and_holes_get_a_sentence(void **state)
+{
+    char message[400];
+
+    (void)state;
+    assert_int_equal(
+        make_from_lines(
+            "models/cages/plane.obj", "0,1,0,0\n3,1,0,0\n0,0,1,0\n", message),
+        OSDTEX_OK);
+    assert_non_null(strstr(
+        message, "constraint 3 contradicts constraint 1; the later one holds"));
+    assert_int_equal(
+        make_from_lines(
+            "models/cages/plane.obj", "0,1,0,0\n0,-1,0,0\n", message),
+        OSDTEX_OK);
+    assert_null(strstr(message, "contradicts"));
+    assert_int_equal(
+        make_from_lines("models/cages/hole.obj", "10,1,0,0\n", message),
+        OSDTEX_ERROR_ARGUMENT);
+    assert_non_null(strstr(message, "constraint 1 lies on a hole"));
+}
+
 static void
 crosses_follow_the_edges_of_quads(void **state)
 {
@@ -459,6 +607,10 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kind_of_following_obeys_poincare_hopf),
+        cmocka_unit_test(indices_sum_to_the_euler_characteristic),
+        cmocka_unit_test(
+            open_and_several_components_have_directions_everywhere),
+        cmocka_unit_test(contradictions_and_holes_get_a_sentence),
         cmocka_unit_test(crosses_follow_the_edges_of_quads),
         cmocka_unit_test(an_edit_changes_its_area_only),
         cmocka_unit_test(what_cannot_be_held_is_refused_in_a_sentence),
