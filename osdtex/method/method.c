@@ -149,13 +149,16 @@ otx_method_choose(
     if (a.kind == OTX_ANALYSIS_LATTICE)
         otx_note(
             run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
-            "method %s: the exemplar is a lattice and the surface has room "
-            "for %.0f of its cells, of %.0f that are needed at least",
-            (*out)->name, cells, CELLS_MIN);
+            "method %s: the exemplar is a lattice, and the surface has room "
+            "for %.0f of its cells, of %.0f that are needed at least%s",
+            (*out)->name, cells, CELLS_MIN,
+            *out == lattice ? "; limbs under two cells that it cannot follow "
+                              "get guided patches"
+                            : "");
     else
         otx_note(
             run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
-            "method %s: the exemplar is %s", (*out)->name,
-            otx_analysis_name(a.kind));
+            "method %s: the exemplar is %s, and only a lattice can run through",
+            (*out)->name, otx_analysis_name(a.kind));
     return OSDTEX_OK;
 }

@@ -10,6 +10,11 @@
 /* How far from a seam the periodic texture gives way to it, in cells. */
 static const double REACH = 1.0;
 
+/* Periodic texture narrower than two cells between patches is no use: half
+ * that, and how far from what is wide enough it is kept. */
+static const double CORE = 1.0;
+static const double KEPT = 1.5;
+
 /* -- which faces --------------------------------------------------------- */
 
 /* Whether no corner of a leaf face is turned inside out. */
@@ -89,6 +94,33 @@ solved_face(const otx_material *m, int32_t leaf_face)
     return face;
 }
 
+/* Opens what is too narrow between open faces: limbs with a dislocation every
+ * other cell, strips along them. */
+static otx_status
+open_narrow(otx_material *m)
+{
+    const otx_arena_mark mark = otx_arena_here(m->run->scratch);
+    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const int32_t count = m->connection.level->face_count;
+    uint8_t *marked = OTX_ZNEW(m->run->scratch, uint8_t, count);
+    double *distance;
+
+    if (!marked)
+        return otx_fail_memory(m->run, "map");
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        if (m->open[f])
+            marked[solved_face(m, f)] = 1;
+    OTX_TRY(otx_phase_distance(m->run, &m->connection, marked, &distance));
+    for (int32_t f = 0; f < count; ++f)
+        marked[f] = distance[f] > CORE * m->cell;
+    OTX_TRY(otx_phase_distance(m->run, &m->connection, marked, &distance));
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        if (distance[solved_face(m, f)] > KEPT * m->cell)
+            m->open[f] = !leaf->face_hole[f];
+    otx_arena_release(m->run->scratch, mark);
+    return OSDTEX_OK;
+}
+
 static void
 note_stats(const otx_material *m, double clean, double filled)
 {
@@ -107,14 +139,17 @@ otx_refill_choose(otx_material *m)
     double clean = 0.0, filled = 0.0, all = 0.0;
 
     for (int32_t f = 0; f < leaf->face_count; ++f)
+        m->open[f] =
+            m->settings->fill && !leaf->face_hole[f] &&
+            (m->distance[solved_face(m, f)] <= m->settings->clear * m->cell ||
+             !is_unfolded(m, m->cells, f) || !is_sound(m, m->cells, f));
+    if (m->settings->fill)
+        OTX_TRY(open_narrow(m));
+    for (int32_t f = 0; f < leaf->face_count; ++f)
     {
         const double distance = m->distance[solved_face(m, f)];
         const double area = leaf->face_hole[f] ? 0.0 : face_area(m, f);
 
-        m->open[f] =
-            m->settings->fill && !leaf->face_hole[f] &&
-            (distance <= m->settings->clear * m->cell ||
-             !is_unfolded(m, m->cells, f) || !is_sound(m, m->cells, f));
         all += area;
         clean += distance > m->cell ? area : 0.0;
         filled += m->open[f] ? area : 0.0;

@@ -1,10 +1,14 @@
 /* test_material.c -- whole mappings: covered, unfolded, the same for any
  * number of threads, refused where there is no lattice. */
+#include "cluster/dual.h"
 #include "flatten/stretch.h"
 #include "method/method.h"
 #include "unit/field/test_field.h"
 
 #include "base/random.h"
+
+#include <stdlib.h>
+#include <string.h>
 
 enum
 {
@@ -175,6 +179,97 @@ what_was_done_is_told(void **state)
     test_run_destroy(run);
 }
 
+/* Area of the kept faces that hang together with `seed`; marks them open. */
+static double
+take_region(const otx_surface *surface, int32_t seed, uint8_t *open)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+    int32_t *stack = calloc((size_t)leaf->face_count, sizeof *stack);
+    int32_t depth = 1;
+    double area = 0.0;
+
+    assert_non_null(stack);
+    stack[0] = seed;
+    open[seed] = 1;
+    while (depth > 0)
+    {
+        const int32_t face = stack[--depth];
+        otx_vec3 unused;
+
+        area +=
+            0.5 * otx_vec3_length(otx_dual_leaf_area(surface, face, &unused));
+        for (int32_t k = 0; k < otx_level_face_size(leaf, face); ++k)
+        {
+            const int32_t other = otx_level_neighbour(leaf, face, k);
+
+            if (other < 0 || open[other])
+                continue;
+            open[other] = 1;
+            stack[depth++] = other;
+        }
+    }
+    free(stack);
+    return area;
+}
+
+/* What is left of the lattice between patches is wider than two cells. */
+static void
+no_scraps_of_the_lattice_are_left(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_exemplar e = make_exemplar(run, true, true);
+    const otx_cage_input in = mesh_cube(run);
+    const field_surface *s = field_from_input(run, &in, 4);
+    const int32_t faces = otx_surface_leaf(&s->surface)->face_count;
+
+    (void)state;
+    for (double scale = 1.0; scale < 6.0; scale *= 1.5)
+    {
+        const double cell = 0.25 * scale;
+        otx_map_stats stats;
+        otx_mapping m;
+
+        assert_int_equal(
+            map_with(run, &s->surface, &e, scale, &m, &stats), OSDTEX_OK);
+        check(&m, &e);
+
+        uint8_t *open = OTX_NEW(run->arena, uint8_t, faces);
+
+        memcpy(open, m.lattice->open, (size_t)faces);
+        for (int32_t f = 0; f < faces; ++f)
+            if (!open[f])
+                assert_true(
+                    take_region(&s->surface, f, open) > 1.5 * cell * cell);
+    }
+    test_run_destroy(run);
+}
+
+/* A mesh as it is has a lattice as well as one that is subdivided. */
+static void
+plain_meshes_have_lattices(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_exemplar e = make_exemplar(run, true, true);
+    const otx_cage_input in = field_torus(run, 72, 36);
+    otx_cage_options options = otx_cage_options_default();
+    otx_surface surface;
+    otx_cage cage;
+    otx_map_stats stats;
+    otx_mapping m;
+
+    (void)state;
+    options.scheme = OTX_SCHEME_NONE;
+    cage = mesh_build(run, &in, &options);
+    surface = mesh_refine(run, &cage, 0);
+    assert_int_equal(surface.level_count, 1);
+    if (map_with(run, &surface, &e, 4.0, &m, &stats) != OSDTEX_OK)
+        fail_msg("%s", test_last_message(run));
+    check(&m, &e);
+    assert_int_equal(stats.singular_faces, 0);
+    assert_true(stats.clean_share == 1.0);
+    test_run_destroy(run);
+}
+
 static void
 what_has_no_lattice_is_refused(void **state)
 {
@@ -206,6 +301,7 @@ the_method_follows_the_exemplar(void **state)
         otx_method_choose(run, &s->surface, &lattice, &request, &method),
         OSDTEX_OK);
     assert_string_equal(method->name, "material");
+    assert_non_null(strstr(test_last_message(run), "limbs"));
     assert_int_equal(
         otx_method_choose(run, &s->surface, &noise, &request, &method),
         OSDTEX_OK);
@@ -225,6 +321,8 @@ main(void)
         cmocka_unit_test(covers_without_folds),
         cmocka_unit_test(the_same_for_any_number_of_threads),
         cmocka_unit_test(what_was_done_is_told),
+        cmocka_unit_test(no_scraps_of_the_lattice_are_left),
+        cmocka_unit_test(plain_meshes_have_lattices),
         cmocka_unit_test(what_has_no_lattice_is_refused),
         cmocka_unit_test(the_method_follows_the_exemplar),
     };
