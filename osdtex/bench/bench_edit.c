@@ -74,7 +74,7 @@ open_scene(const bench_options *options, scene *s)
         return false;
     /* A cap of a quarter of a sphere reaches 60 degrees; ways along faces are
      * some longer than geodesics. */
-    s->reach = 1.1 * OTX_PI / 3.0 * 0.5 *
+    s->reach = 1.3 * OTX_PI / 3.0 * 0.5 *
                osdtex_cage_describe(s->cage)->diagonal / sqrt(3.0);
     return osdtex_field_create(s->context, s->surface, &asked, &s->field) ==
            OSDTEX_OK;
