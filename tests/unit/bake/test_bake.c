@@ -418,6 +418,74 @@ it_can_be_stopped_anywhere(void **state)
     }
 }
 
+typedef struct failing
+{
+    int64_t left; /* allocations that succeed */
+} failing;
+
+static void *
+fail_later(void *user, size_t bytes)
+{
+    failing *f = user;
+
+    return f->left-- > 0 ? malloc(bytes) : NULL;
+}
+
+static void
+give_back(void *user, void *block, size_t bytes)
+{
+    (void)user;
+    (void)bytes;
+    free(block);
+}
+
+static otx_status
+lay_out_and_bake(
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    flat_levels *out)
+{
+    const otx_layout_options where = {OTX_LAYOUT_ATLAS, 128, 4, 0.0};
+    const otx_bake_options options = {OTX_TEXEL_COLOR, 4.0};
+    const otx_bake_sink sink = {flat_take, flat_put, out};
+    otx_layout layout;
+    otx_bake bake;
+
+    OTX_TRY(otx_layout_build(run, mapping, &where, &layout));
+    OTX_TRY(otx_bake_create(run, mapping, exemplar, &layout, &options, &bake));
+    return otx_bake_tile(run, &bake, 0, &sink);
+}
+
+static void
+failing_any_allocation_leaves_nothing(void **state)
+{
+    otx_status status = OSDTEX_ERROR_MEMORY;
+    int32_t failures = 0;
+
+    (void)state;
+    for (int64_t stop = 0; status != OSDTEX_OK; ++stop)
+    {
+        failing f = {INT64_MAX};
+        const otx_heap_hooks hooks = {fail_later, give_back, &f, 0};
+        otx_run *run = test_run_create_with(&hooks, 1);
+        const otx_surface *surface = flat_surface(run, 6, 3);
+        otx_mapping *mapping = flat_mapping(run, surface, 6.0);
+        const otx_exemplar *exemplar = flat_ramp(run, 64);
+        flat_levels out = {otx_pyramid_count(128, 128), {{0}}};
+
+        tear(mapping, 3.0);
+        for (int32_t l = 0; l < out.count; ++l)
+            otx_image_create(
+                run, run->arena, 128 >> l, 128 >> l, 3, &out.levels[l]);
+        f.left = stop;
+        status = lay_out_and_bake(run, mapping, exemplar, &out);
+        f.left = INT64_MAX;
+        assert_true(status == OSDTEX_OK || status == OSDTEX_ERROR_MEMORY);
+        failures += status != OSDTEX_OK;
+        test_run_destroy(run);
+    }
+    assert_true(failures > 3);
+}
+
 int
 main(void)
 {
@@ -429,6 +497,7 @@ main(void)
         cmocka_unit_test(threads_make_no_difference),
         cmocka_unit_test(numbers_are_those_of_the_mapping),
         cmocka_unit_test(it_can_be_stopped_anywhere),
+        cmocka_unit_test(failing_any_allocation_leaves_nothing),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
