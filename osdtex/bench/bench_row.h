@@ -29,6 +29,7 @@ extern const bench_row bench_row_map;
 extern const bench_row bench_row_tile;
 extern const bench_row bench_row_growth;
 extern const bench_row bench_row_write;
+extern const bench_row bench_row_exr;
 extern const bench_row bench_row_field;
 extern const bench_row bench_row_edit;
 
