@@ -876,8 +876,8 @@ extern "C"
         int32_t has_corner;
         int32_t background[4]; /* x0, y0, x1, y1: insides of tiles come from
                                 * these texels; all 0: from anywhere */
-        int32_t ramp; /* 1: cross-fades as published instead of cuts, for
-                       * comparison; such tiles jump at vertices */
+        int32_t ramp;    /* 1: cross-fades as published instead of cuts, for
+                          * comparison; such tiles jump at vertices */
         double corner_x; /* texels; middle of the first kind of vertex */
         double corner_y;
         uint64_t seed;
