@@ -13,11 +13,40 @@
 #include "base/run.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Folder with real cages and photographs, beside the project where it is
  * there. Tests that need it skip with a message where it is absent. */
 #define SHARED_DATA "../shared/data"
+
+/* A heap that fails once `left` allocations have succeeded. */
+typedef struct test_ration
+{
+    int64_t left;
+} test_ration;
+
+static inline void *
+test_ration_alloc(void *user, size_t bytes)
+{
+    test_ration *ration = user;
+
+    return ration->left-- > 0 ? malloc(bytes) : NULL;
+}
+
+static inline void
+test_ration_release(void *user, void *block, size_t bytes)
+{
+    (void)user;
+    (void)bytes;
+    free(block);
+}
+
+static inline otx_heap_hooks
+test_ration_hooks(test_ration *ration)
+{
+    return (otx_heap_hooks){test_ration_alloc, test_ration_release, ration, 0};
+}
 
 /* A run with its own heap, arenas, diagnostics and pool. */
 static inline otx_run *

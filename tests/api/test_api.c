@@ -1,13 +1,6 @@
 /* test_api.c -- the library as a host sees it: arguments, ownership, failing
  * allocations, cancelling at every moment. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
-#include <osdtex/osdtex.h>
+#include "meter.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -34,63 +27,6 @@ cube(void)
     arrays.face_sizes = cube_sizes;
     arrays.face_verts = cube_verts;
     return arrays;
-}
-
-/* A heap that counts, and fails at the k-th allocation. */
-typedef struct meter
-{
-    _Atomic long blocks;
-    _Atomic long calls;
-    long fail_at; /* -1 never */
-    /* Progress calls until cancelled; -1 never. */
-    long cancel_at;
-    long progress_calls;
-} meter;
-
-static void *
-meter_alloc(void *user, size_t bytes)
-{
-    meter *m = user;
-    const long call = m->calls++;
-
-    if (call == m->fail_at)
-        return NULL;
-    ++m->blocks;
-    return malloc(bytes);
-}
-
-static void
-meter_release(void *user, void *block, size_t bytes)
-{
-    meter *m = user;
-
-    (void)bytes;
-    --m->blocks;
-    free(block);
-}
-
-static bool
-meter_progress(void *user, const char *stage, double fraction)
-{
-    meter *m = user;
-
-    assert_non_null(stage);
-    assert_true(fraction >= 0.0 && fraction <= 1.0);
-    return m->progress_calls++ != m->cancel_at;
-}
-
-static osdtex_context_options
-metered(meter *m)
-{
-    osdtex_context_options options = osdtex_context_options_default();
-
-    options.alloc = meter_alloc;
-    options.release = meter_release;
-    options.alloc_user = m;
-    options.progress = meter_progress;
-    options.progress_user = m;
-    options.threads = 2;
-    return options;
 }
 
 typedef struct pipe

@@ -1,13 +1,6 @@
 /* test_field_api.c -- fields as a host sees them: constraints, edits, tables,
  * and what is refused. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
-#include <osdtex/osdtex.h>
+#include "meter.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,41 +8,23 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Blocks of a heap that fails at the k-th allocation. */
-typedef struct meter
-{
-    _Atomic long blocks;
-    _Atomic long calls;
-    long fail_at; /* -1 never */
-} meter;
-
-static void *
-meter_alloc(void *user, size_t bytes)
-{
-    meter *m = user;
-
-    if (m->calls++ == m->fail_at)
-        return NULL;
-    ++m->blocks;
-    return malloc(bytes);
-}
-
-static void
-meter_release(void *user, void *block, size_t bytes)
-{
-    meter *m = user;
-
-    (void)bytes;
-    --m->blocks;
-    free(block);
-}
-
 typedef struct scene
 {
     osdtex_context *context;
     osdtex_cage *cage;
     osdtex_surface *surface;
 } scene;
+
+static void
+assert_directions_everywhere(const osdtex_field_info *info)
+{
+    for (int32_t f = 0; f < info->face_count; ++f)
+    {
+        const float *d = info->directions + 3 * (size_t)f;
+
+        assert_true(fabs(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - 1.0) < 1e-5);
+    }
+}
 
 static osdtex_status
 open_scheme(
@@ -137,13 +112,7 @@ every_kind_of_following_obeys_poincare_hopf(void **state)
             for (int32_t i = 0; i < info->singularity_count; ++i)
                 sum += info->singularities[i].index;
             assert_true(fabs(sum - 2.0) < 1e-9);
-            for (int32_t f = 0; f < info->face_count; ++f)
-            {
-                const float *d = info->directions + 3 * (size_t)f;
-
-                assert_true(
-                    fabs(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - 1.0) < 1e-5);
-            }
+            assert_directions_everywhere(info);
             osdtex_field_destroy(field);
             close_scene(&s);
         }
@@ -237,13 +206,7 @@ open_and_several_components_have_directions_everywhere(void **state)
             OSDTEX_OK);
         field = make_field(&s, "1,2,3", 2);
         info = osdtex_field_describe(field);
-        for (int32_t f = 0; f < info->face_count; ++f)
-        {
-            const float *d = info->directions + 3 * (size_t)f;
-
-            assert_true(
-                fabs(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - 1.0) < 1e-5);
-        }
+        assert_directions_everywhere(info);
         osdtex_field_destroy(field);
         close_scene(&s);
     }
@@ -582,15 +545,11 @@ failing_allocations_leak_nothing(void **state)
     (void)state;
     for (long k = 0;; k += 1 + k / 16)
     {
-        meter m = {.fail_at = k};
-        osdtex_context_options options = osdtex_context_options_default();
+        meter m = {.fail_at = k, .cancel_at = -1};
+        const osdtex_context_options options = metered(&m);
         osdtex_status status;
         scene s;
 
-        options.alloc = meter_alloc;
-        options.release = meter_release;
-        options.alloc_user = &m;
-        options.threads = 2;
         status = open_scene(&s, "models/cages/sphere.obj", 1, &options);
         if (status == OSDTEX_OK)
             status = make_and_edit(&s);

@@ -418,27 +418,6 @@ it_can_be_stopped_anywhere(void **state)
     }
 }
 
-typedef struct failing
-{
-    int64_t left; /* allocations that succeed */
-} failing;
-
-static void *
-fail_later(void *user, size_t bytes)
-{
-    failing *f = user;
-
-    return f->left-- > 0 ? malloc(bytes) : NULL;
-}
-
-static void
-give_back(void *user, void *block, size_t bytes)
-{
-    (void)user;
-    (void)bytes;
-    free(block);
-}
-
 static otx_status
 lay_out_and_bake(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
@@ -464,8 +443,8 @@ failing_any_allocation_leaves_nothing(void **state)
     (void)state;
     for (int64_t stop = 0; status != OSDTEX_OK; ++stop)
     {
-        failing f = {INT64_MAX};
-        const otx_heap_hooks hooks = {fail_later, give_back, &f, 0};
+        test_ration f = {INT64_MAX};
+        const otx_heap_hooks hooks = test_ration_hooks(&f);
         otx_run *run = test_run_create_with(&hooks, 1);
         const otx_surface *surface = flat_surface(run, 6, 3);
         otx_mapping *mapping = flat_mapping(run, surface, 6.0);

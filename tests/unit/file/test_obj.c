@@ -476,23 +476,6 @@ reading_can_be_cancelled(void **state)
     assert_int_equal(calls, 1);
 }
 
-/* Fails the k-th allocation. */
-static void *
-fail_at(void *user, size_t bytes)
-{
-    int *left = user;
-
-    return (*left)-- == 0 ? NULL : malloc(bytes);
-}
-
-static void
-release(void *user, void *block, size_t bytes)
-{
-    (void)user;
-    (void)bytes;
-    free(block);
-}
-
 static void
 memory_may_end_anywhere(void **state)
 {
@@ -509,14 +492,14 @@ memory_may_end_anywhere(void **state)
         memcpy(bytes + BYTES * i, "v 1 2 3 4 5 6\n", BYTES);
     for (int k = 0; status != OSDTEX_OK; ++k)
     {
-        int left = 1000;
-        const otx_heap_hooks hooks = {fail_at, release, &left, 0};
+        test_ration ration = {1000};
+        const otx_heap_hooks hooks = test_ration_hooks(&ration);
         otx_run *run = test_run_create_with(&hooks, 1);
         otx_obj obj;
 
-        left = k;
+        ration.left = k;
         status = otx_obj_parse(run, "t.obj", bytes, VERTS * BYTES, &obj);
-        left = 1000;
+        ration.left = 1000;
         assert_true(status == OSDTEX_OK || status == OSDTEX_ERROR_MEMORY);
         assert_true(k < 100);
         test_run_destroy(run);

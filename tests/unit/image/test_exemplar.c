@@ -324,27 +324,6 @@ test_threads(void **state)
 }
 
 /* Memory that runs out at the k-th block ends in MEMORY, for every k. */
-typedef struct ration
-{
-    int left;
-} ration;
-
-static void *
-rationed(void *user, size_t bytes)
-{
-    ration *r = user;
-
-    return r->left-- > 0 ? malloc(bytes) : NULL;
-}
-
-static void
-released(void *user, void *block, size_t bytes)
-{
-    (void)user;
-    (void)bytes;
-    free(block);
-}
-
 static void
 test_memory(void **state)
 {
@@ -353,8 +332,8 @@ test_memory(void **state)
 
     for (int k = 0; k < 200 && !done; ++k)
     {
-        ration r = {1 << 30};
-        const otx_heap_hooks hooks = {rationed, released, &r, 0};
+        test_ration r = {1 << 30};
+        const otx_heap_hooks hooks = test_ration_hooks(&r);
         otx_run *run = test_run_create_with(&hooks, 2);
         otx_exemplar_input input = {.pixels = noise(run, 200, 180, 3)};
         otx_colour colour;

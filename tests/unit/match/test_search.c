@@ -524,32 +524,11 @@ threads_do_not_change_a_bit(void **state)
 
 /* ------------------------------------------------------- out of memory */
 
-typedef struct budget
-{
-    int64_t left;
-} budget;
-
-static void *
-alloc_within(void *user, size_t bytes)
-{
-    budget *b = user;
-
-    return b->left-- > 0 ? malloc(bytes) : NULL;
-}
-
-static void
-release_block(void *user, void *block, size_t bytes)
-{
-    (void)user;
-    (void)bytes;
-    free(block);
-}
-
 static void
 running_out_of_memory_is_a_status(void **state)
 {
-    budget b = {.left = INT64_MAX};
-    const otx_heap_hooks hooks = {alloc_within, release_block, &b, 0};
+    test_ration b = {.left = INT64_MAX};
+    const otx_heap_hooks hooks = test_ration_hooks(&b);
     bool done = false;
 
     (void)state;

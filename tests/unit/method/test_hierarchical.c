@@ -380,27 +380,6 @@ cancelling_at_any_call_leaves_nothing(void **state)
     }
 }
 
-typedef struct failing
-{
-    int64_t left; /* allocations that succeed */
-} failing;
-
-static void *
-fail_later(void *user, size_t bytes)
-{
-    failing *f = user;
-
-    return f->left-- > 0 ? malloc(bytes) : NULL;
-}
-
-static void
-give_back(void *user, void *block, size_t bytes)
-{
-    (void)user;
-    (void)bytes;
-    free(block);
-}
-
 static void
 failing_any_allocation_leaves_nothing(void **state)
 {
@@ -414,8 +393,8 @@ failing_any_allocation_leaves_nothing(void **state)
         for (int64_t stop = 0; status != OSDTEX_OK && stop < 100000;
              stop += 1 + stop / 8)
         {
-            failing f = {INT64_MAX};
-            const otx_heap_hooks hooks = {fail_later, give_back, &f, 0};
+            test_ration f = {INT64_MAX};
+            const otx_heap_hooks hooks = test_ration_hooks(&f);
             job *j = make_job_with(&hooks, 1, "sphere", 1, 6.0, true);
 
             set(j, "mode", modes[k]);

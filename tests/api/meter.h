@@ -1,0 +1,74 @@
+/* meter.h -- a host whose heap and patience can end at any moment. */
+#ifndef OTX_TESTS_METER_H
+#define OTX_TESTS_METER_H
+
+/* cmocka.h needs these first. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <osdtex/osdtex.h>
+
+#include <stdlib.h>
+
+/* A heap that counts, and fails at the k-th allocation. */
+typedef struct meter
+{
+    _Atomic long blocks;
+    _Atomic long calls;
+    long fail_at; /* -1 never */
+    /* Progress calls until cancelled; -1 never. */
+    long cancel_at;
+    long progress_calls;
+} meter;
+
+static inline void *
+meter_alloc(void *user, size_t bytes)
+{
+    meter *m = user;
+    const long call = m->calls++;
+
+    if (call == m->fail_at)
+        return NULL;
+    ++m->blocks;
+    return malloc(bytes);
+}
+
+static inline void
+meter_release(void *user, void *block, size_t bytes)
+{
+    meter *m = user;
+
+    (void)bytes;
+    --m->blocks;
+    free(block);
+}
+
+static inline bool
+meter_progress(void *user, const char *stage, double fraction)
+{
+    meter *m = user;
+
+    assert_non_null(stage);
+    assert_true(fraction >= 0.0 && fraction <= 1.0);
+    return m->progress_calls++ != m->cancel_at;
+}
+
+static inline osdtex_context_options
+metered(meter *m)
+{
+    osdtex_context_options options = osdtex_context_options_default();
+
+    options.alloc = meter_alloc;
+    options.release = meter_release;
+    options.alloc_user = m;
+    options.progress = meter_progress;
+    options.progress_user = m;
+    options.threads = 2;
+    return options;
+}
+
+#endif
