@@ -416,12 +416,13 @@ otx_constraint_scale(
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     const int32_t count = c->level->vert_count;
-    double *values = OTX_ZNEW(run->scratch, double, count);
+    double *values;
 
-    if (!values)
-        return otx_fail_memory(run, "field");
     if (!set)
         return OSDTEX_OK;
+    values = OTX_ZNEW(run->scratch, double, count);
+    if (!values)
+        return otx_fail_memory(run, "field");
     OTX_TRY(otx_constraint_interpolate(
         run, set, c, OTX_CONSTRAINT_SCALE, NULL, values));
     for (int32_t v = 0; v < count; ++v)

@@ -35,6 +35,24 @@ otx_image_at(const otx_image *image, int32_t x, int32_t y)
                                (size_t)image->channels;
 }
 
+/* The row or column that `i` is on a torus of `size`. */
+static inline int32_t
+otx_image_wrap(int32_t i, int32_t size)
+{
+    return ((i % size) + size) % size;
+}
+
+/* Squared distance of two texels of three channels. */
+static inline double
+otx_image_distance_sq(const float *a, const float *b)
+{
+    const double x = (double)a[0] - (double)b[0];
+    const double y = (double)a[1] - (double)b[1];
+    const double z = (double)a[2] - (double)b[2];
+
+    return x * x + y * y + z * z;
+}
+
 /* Bilinear sample at `texel` (texel units), into color[channels]. Wraps where
  * `wrap` is true, else clamps to the border texel centres. */
 void otx_image_sample(

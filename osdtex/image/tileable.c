@@ -38,20 +38,6 @@ typedef struct steps
     double border, inner, largest;
 } steps;
 
-/* Squared distance of two texels. */
-static double
-texel_distance_sq(const float *a, const float *b)
-{
-    double sum = 0.0;
-
-    for (int k = 0; k < 3; ++k)
-    {
-        const double d = (double)a[k] - (double)b[k];
-        sum += d * d;
-    }
-    return sum;
-}
-
 /* RMS step from each column to the next, the last to the first. */
 static otx_status
 measure_steps(otx_run *run, const otx_image *image, steps *out)
@@ -68,8 +54,8 @@ measure_steps(otx_run *run, const otx_image *image, steps *out)
         const float *row = otx_image_at(image, 0, y);
 
         for (int32_t x = 0; x + 1 < width; ++x)
-            sum[x] += texel_distance_sq(row + 3 * x, row + 3 * (x + 1));
-        sum[width - 1] += texel_distance_sq(row + 3 * (width - 1), row);
+            sum[x] += otx_image_distance_sq(row + 3 * x, row + 3 * (x + 1));
+        sum[width - 1] += otx_image_distance_sq(row + 3 * (width - 1), row);
     }
     for (int32_t x = 0; x + 1 < width; ++x)
     {
@@ -148,12 +134,6 @@ sum_columns(otx_run *run, const otx_image *image, column **out)
     return OSDTEX_OK;
 }
 
-static int32_t
-wrapped(int32_t x, int32_t width)
-{
-    return (x % width + width) % width;
-}
-
 /* Variance of the strip centred before column `at`, over all channels. */
 static double
 strip_variance(const strips *s, int32_t at)
@@ -165,7 +145,7 @@ strip_variance(const strips *s, int32_t at)
 
     for (int32_t i = at - s->half; i < at + s->half; ++i)
     {
-        const column *c = &s->columns[wrapped(i, width)];
+        const column *c = &s->columns[otx_image_wrap(i, width)];
 
         for (int k = 0; k < 3; ++k)
             mean[k] += c->sum[k] / count;
@@ -191,9 +171,9 @@ likeness(const strips *s, int32_t a, int32_t b)
         const float *row = otx_image_at(s->image, 0, y);
 
         for (int32_t i = -s->half; i < s->half; ++i)
-            sum += texel_distance_sq(
-                row + 3 * wrapped(a + i, width),
-                row + 3 * wrapped(b + i, width));
+            sum += otx_image_distance_sq(
+                row + 3 * otx_image_wrap(a + i, width),
+                row + 3 * otx_image_wrap(b + i, width));
     }
     return 1.0 - sum / count / variance;
 }

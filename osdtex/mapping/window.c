@@ -301,7 +301,7 @@ static int32_t
 fold_index(int32_t i, int32_t size, bool wrap)
 {
     if (wrap)
-        return ((i % size) + size) % size;
+        return otx_image_wrap(i, size);
     return i < 0 ? 0 : i < size ? i : size - 1;
 }
 

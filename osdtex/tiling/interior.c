@@ -1,8 +1,6 @@
 /* interior.c -- strips over windows, cut by expansion moves. */
 #include "tiling/interior.h"
 
-#include <string.h>
-
 static const char STAGE[] = "tiles";
 
 /* Whether a side may show at a place: as deep as its strip reaches, and not
@@ -85,32 +83,6 @@ lock_rim(const otx_frame_kit *kit, const otx_tile_name *name, otx_quilt *quilt)
                 *lock = (uint8_t)otx_frame_nearest(kit, x, y);
 }
 
-static bool
-is_seen(const otx_quilt *quilt, int32_t sheet)
-{
-    return memchr(
-               quilt->labels, sheet,
-               (size_t)quilt->width * (size_t)quilt->height) != NULL;
-}
-
-/* Expands every sheet once, then those that are seen until a round brings
- * nothing. */
-static otx_status
-settle(otx_run *run, otx_quilt *quilt, int32_t rounds)
-{
-    for (int32_t round = 0; round < rounds; ++round)
-    {
-        const int64_t before = quilt->cost;
-
-        for (int32_t s = 0; s < quilt->sheet_count; ++s)
-            if (round == 0 || is_seen(quilt, s))
-                OTX_TRY(otx_quilt_expand(run, quilt, s));
-        if (quilt->cost == before)
-            break;
-    }
-    return OSDTEX_OK;
-}
-
 static void
 take_texels(
     const otx_frame_kit *kit, const otx_tile_name *name, const otx_quilt *quilt,
@@ -154,7 +126,7 @@ otx_interior_fill(
     for (int32_t s = 0; s <= 4; ++s)
         otx_quilt_fill(quilt, s);
     otx_quilt_price(quilt);
-    OTX_TRY(settle(run, quilt, options->rounds));
+    OTX_TRY(otx_quilt_settle(run, quilt, options->rounds));
     if (patches)
         OTX_TRY(otx_patchwork_mend(run, patches, &options->patchwork, quilt));
     take_texels(kit, name, quilt, map);

@@ -27,22 +27,6 @@ static const double UNSEEN = 0.5;
 
 static const char STAGE[] = "toroid";
 
-static int32_t
-wrapped(int32_t x, int32_t size)
-{
-    return ((x % size) + size) % size;
-}
-
-static double
-distance_sq(const float *a, const float *b)
-{
-    const double l = (double)a[0] - (double)b[0];
-    const double m = (double)a[1] - (double)b[1];
-    const double n = (double)a[2] - (double)b[2];
-
-    return l * l + m * m + n * n;
-}
-
 /* Windows of `image`, each with how far it is from all of `source`. */
 typedef struct survey
 {
@@ -64,10 +48,10 @@ window_distance(
 
     for (int32_t j = 0; j < SIDE && sum < limit; ++j)
         for (int32_t i = 0; i < SIDE; ++i)
-            sum += distance_sq(
+            sum += otx_image_distance_sq(
                 otx_image_at(
-                    s->image, wrapped(x + i, s->image->width),
-                    wrapped(y + j, s->image->height)),
+                    s->image, otx_image_wrap(x + i, s->image->width),
+                    otx_image_wrap(y + j, s->image->height)),
                 otx_image_at(s->source, u + i, v + j));
     return sum;
 }
@@ -124,9 +108,9 @@ is_cut(const otx_texel_map *map, int32_t factor, int32_t x, int32_t y)
         {
             const int32_t at = otx_texel_map_at(map, i, j);
             const int32_t right =
-                otx_texel_map_at(map, wrapped(i + 1, map->width), j);
+                otx_texel_map_at(map, otx_image_wrap(i + 1, map->width), j);
             const int32_t above =
-                otx_texel_map_at(map, i, wrapped(j + 1, map->height));
+                otx_texel_map_at(map, i, otx_image_wrap(j + 1, map->height));
 
             if (right - at != 1 || above - at != map->width)
                 return true;
@@ -147,8 +131,8 @@ place_on_cuts(otx_run *run, const otx_texel_map *map, int32_t factor, survey *s)
     for (int32_t y = 0; y < height; ++y)
         for (int32_t x = 0; x < width; ++x)
             if (is_cut(map, factor, x, y))
-                places[total++] = wrapped(y - SIDE / 2, height) * width +
-                                  wrapped(x - SIDE / 2, width);
+                places[total++] = otx_image_wrap(y - SIDE / 2, height) * width +
+                                  otx_image_wrap(x - SIDE / 2, width);
     s->count = total < PROBES ? total : PROBES;
     for (int32_t i = 0; i < s->count; ++i)
         s->places[i] = places[(int64_t)i * total / s->count];

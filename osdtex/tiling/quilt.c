@@ -338,6 +338,30 @@ otx_quilt_expand(otx_run *run, otx_quilt *quilt, int32_t sheet)
     return OSDTEX_OK;
 }
 
+static bool
+is_seen(const otx_quilt *quilt, int32_t sheet)
+{
+    return memchr(
+               quilt->labels, sheet,
+               (size_t)quilt->width * (size_t)quilt->height) != NULL;
+}
+
+otx_status
+otx_quilt_settle(otx_run *run, otx_quilt *quilt, int32_t rounds)
+{
+    for (int32_t round = 0; round < rounds; ++round)
+    {
+        const int64_t before = quilt->cost;
+
+        for (int32_t s = 0; s < quilt->sheet_count; ++s)
+            if (round == 0 || is_seen(quilt, s))
+                OTX_TRY(otx_quilt_expand(run, quilt, s));
+        if (quilt->cost == before)
+            break;
+    }
+    return OSDTEX_OK;
+}
+
 /* Adds the seam between two neighbours, if there is one that could be seen. */
 static void
 measure_pair(const otx_quilt *quilt, place p, place q, otx_quilt_seams *seams)

@@ -76,6 +76,10 @@ void otx_quilt_fill(otx_quilt *quilt, int32_t sheet);
  * as they are. The cost never rises. */
 otx_status otx_quilt_expand(otx_run *run, otx_quilt *quilt, int32_t sheet);
 
+/* Expands every sheet, then those that show until a round brings nothing, at
+ * most `rounds` rounds in all. quilt->cost is known. */
+otx_status otx_quilt_settle(otx_run *run, otx_quilt *quilt, int32_t rounds);
+
 /* Computes quilt->cost from the labels. */
 void otx_quilt_price(otx_quilt *quilt);
 

@@ -11,8 +11,6 @@
 #include "tiling/quilt.h"
 #include "tiling/window_search.h"
 
-#include <string.h>
-
 enum
 {
     RIM = 2,     /* texels of a window that stay */
@@ -38,18 +36,13 @@ typedef struct toroid
     double seam_sum;
 } toroid;
 
-static int32_t
-wrapped(int32_t x, int32_t size)
-{
-    return ((x % size) + size) % size;
-}
-
 static int32_t *
 texel_at(const toroid *t, int32_t x, int32_t y)
 {
     return &t->map.texels
-                [(size_t)wrapped(y, t->map.height) * (size_t)t->map.width +
-                 (size_t)wrapped(x, t->map.width)];
+                [(size_t)otx_image_wrap(y, t->map.height) *
+                     (size_t)t->map.width +
+                 (size_t)otx_image_wrap(x, t->map.width)];
 }
 
 /* Whether texels on both sides of the line are still the picture's border:
@@ -58,7 +51,7 @@ static bool
 is_open(const toroid *t, int32_t axis, int32_t along)
 {
     const int32_t w = t->map.width, h = t->map.height;
-    const int32_t at = wrapped(along, axis == 0 ? h : w);
+    const int32_t at = otx_image_wrap(along, axis == 0 ? h : w);
 
     return axis == 0 ? *texel_at(t, -1, at) == at * w + w - 1 &&
                            *texel_at(t, 0, at) == at * w
@@ -99,31 +92,13 @@ lock_rim(otx_quilt *quilt)
                 quilt->locks[(size_t)y * (size_t)n + (size_t)x] = 0;
 }
 
-static bool
-is_seen(const otx_quilt *quilt, int32_t sheet)
-{
-    return memchr(
-               quilt->labels, sheet,
-               (size_t)quilt->width * (size_t)quilt->height) != NULL;
-}
-
 static otx_status
 sew(toroid *t, otx_quilt *quilt)
 {
     for (int32_t s = quilt->sheet_count - 1; s >= 0; --s)
         otx_quilt_fill(quilt, s);
     otx_quilt_price(quilt);
-    for (int32_t round = 0; round < ROUNDS; ++round)
-    {
-        const int64_t before = quilt->cost;
-
-        for (int32_t s = 0; s < quilt->sheet_count; ++s)
-            if (round == 0 || is_seen(quilt, s))
-                OTX_TRY(otx_quilt_expand(t->run, quilt, s));
-        if (quilt->cost == before)
-            break;
-    }
-    return OSDTEX_OK;
+    return otx_quilt_settle(t->run, quilt, ROUNDS);
 }
 
 static void

@@ -11,12 +11,6 @@ enum
 
 static const char STAGE[] = "toroid";
 
-static int32_t
-wrapped(int32_t x, int32_t size)
-{
-    return ((x % size) + size) % size;
-}
-
 /* Adds the mean Lab of a block of a map to `out`; false when it has holes. */
 static bool
 block_mean(
@@ -80,16 +74,6 @@ otx_window_search_create(
         run, arena, pool, &all, out->factor, &out->small, NULL);
 }
 
-static double
-distance_sq(const float *a, const float *b)
-{
-    const double l = (double)a[0] - (double)b[0];
-    const double m = (double)a[1] - (double)b[1];
-    const double n = (double)a[2] - (double)b[2];
-
-    return l * l + m * m + n * n;
-}
-
 /* One search: what is looked for, and the cost of every place. */
 typedef struct hunt
 {
@@ -110,12 +94,13 @@ place_cost(const hunt *h, int32_t x, int32_t y)
     for (int32_t j = 0; j < h->what.height; ++j)
     {
         const float *what = otx_image_at(&h->what, 0, j);
-        const int32_t row = wrapped(y + j, in->height);
+        const int32_t row = otx_image_wrap(y + j, in->height);
 
         for (int32_t i = 0; i < h->what.width; ++i, what += 3)
             if (*known++)
-                sum += distance_sq(
-                    what, otx_image_at(in, wrapped(x + i, in->width), row));
+                sum += otx_image_distance_sq(
+                    what,
+                    otx_image_at(in, otx_image_wrap(x + i, in->width), row));
     }
     return sum;
 }
@@ -163,7 +148,7 @@ exact_cost(
             const int32_t texel = otx_texel_map_at(window, x, y);
 
             if (texel != OTX_TEXEL_NONE)
-                sum += distance_sq(
+                sum += otx_image_distance_sq(
                     lab + 3 * (size_t)texel,
                     lab + 3 * (size_t)otx_texel_pool_window(
                                   s->pool, place, s->side, s->side, x, y));
