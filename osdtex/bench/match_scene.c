@@ -18,6 +18,7 @@ fill_mask(otx_mask_triangle *triangles, double size, double width)
         const int32_t side = i / 48, k = i / 2 % 24;
         otx_mask_triangle *t = &triangles[count++];
 
+        *t = (otx_mask_triangle){.from = NULL};
         for (int c = 0; c < 3; ++c)
         {
             const double *corner = corners[i % 2][c];

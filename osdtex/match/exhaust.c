@@ -40,6 +40,7 @@ otx_exhaust_buffers_create(
 
 typedef struct painter
 {
+    const otx_mask *mask;
     const otx_plane *plane;
     const otx_exhaust_buffers *buffers;
     otx_exhaust_sums *sums;
@@ -50,14 +51,16 @@ paint_span(void *context, const otx_mask_span *span)
 {
     const painter *p = context;
     const otx_plane *plane = p->plane;
+    const otx_plane *from =
+        otx_matcher_source(p->mask->triangles[span->triangle].from, plane);
     const int32_t channels = plane->channels;
-    const double step_x = span->source_step.x / plane->pixel.x;
-    const double step_y = span->source_step.y / plane->pixel.y;
+    const double step_x = span->source_step.x / from->pixel.x;
+    const double step_y = span->source_step.y / from->pixel.y;
     const int32_t y = (span->y - p->sums->base_y) % plane->fft_height;
     const size_t row = (size_t)y * otx_fft_stride(plane->fft);
     int32_t x = (span->x - p->sums->base_x) % plane->fft_width;
-    double u = span->source.x / plane->pixel.x;
-    double v = span->source.y / plane->pixel.y;
+    double u = span->source.x / from->pixel.x;
+    double v = span->source.y / from->pixel.y;
     double energy = 0.0, weights = 0.0;
     float *planes[OTX_PLANE_SPECTRA];
 
@@ -67,12 +70,12 @@ paint_span(void *context, const otx_mask_span *span)
     {
         const double w = span->weight + n * span->weight_step;
         const float weight = w > 0.0 ? (float)w : 0.0f;
-        const double su = otx_plane_wrap(u, plane->width, plane->wrap_x);
-        const double sv = otx_plane_wrap(v, plane->height, plane->wrap_y);
+        const double su = otx_plane_wrap(u, from->width, from->wrap_x);
+        const double sv = otx_plane_wrap(v, from->height, from->wrap_y);
         float color[OTX_PLANE_LANES];
         float square = 0.0f;
 
-        otx_plane_sample(plane, su, sv, color);
+        otx_plane_sample(from, su, sv, color);
         for (int32_t c = 0; c < channels; ++c)
         {
             planes[c][x] += weight * color[c];
@@ -82,8 +85,8 @@ paint_span(void *context, const otx_mask_span *span)
         energy += (double)(weight * square);
         weights += (double)weight;
         /* From the wrapped position, the next one rarely needs a floor. */
-        u = (plane->wrap_x ? su : u) + step_x;
-        v = (plane->wrap_y ? sv : v) + step_y;
+        u = (from->wrap_x ? su : u) + step_x;
+        v = (from->wrap_y ? sv : v) + step_y;
         if (++x == plane->fft_width)
             x = 0;
     }
@@ -104,7 +107,8 @@ otx_exhaust_map(
         .base_x = (int32_t)ceil(box.low.x - 0.5),
         .base_y = (int32_t)ceil(box.low.y - 0.5)};
     int32_t rows = (int32_t)ceil(box.high.y - 0.5) - sums.base_y;
-    painter p = {.plane = plane, .buffers = buffers, .sums = &sums};
+    painter p = {
+        .mask = mask, .plane = plane, .buffers = buffers, .sums = &sums};
 
     if (rows > plane->fft_height)
         rows = plane->fft_height;

@@ -11,6 +11,9 @@
 
 #include "image/image.h"
 
+/* Spectra and pyramid of one exemplar; immutable, shared by threads. */
+typedef struct otx_matcher otx_matcher;
+
 /* One textured triangle of the collar. */
 typedef struct otx_mask_triangle
 {
@@ -18,6 +21,8 @@ typedef struct otx_mask_triangle
     otx_vec2 source[3]; /* where the corners take their colour now, texels;
                          * may leave the exemplar where it tiles */
     float weight[3];    /* >= 0; all 1 is the plain J of eq. 2 */
+    const otx_matcher *from; /* whose exemplar `source` lies in; NULL: the one
+                              * that is searched */
 } otx_mask_triangle;
 
 /* Where triangles overlap, each counts. Edges shared with bit-equal corners
@@ -88,9 +93,6 @@ otx_match_query_defaults(const double *angles, int32_t angle_count)
     };
 }
 
-/* Spectra and pyramid of one exemplar; immutable, shared by threads. */
-typedef struct otx_matcher otx_matcher;
-
 /* Prepares a search in `match` (1 to 4 channels, kept by the caller no longer
  * than this call).
  *
@@ -102,6 +104,14 @@ typedef struct otx_matcher otx_matcher;
 otx_status otx_matcher_create(
     otx_run *run, const otx_image *match, bool wrap_x, bool wrap_y,
     double sigma, int32_t finest_level, otx_matcher **out);
+
+/* The same for one exemplar of several: masks that are looked up in it may
+ * hold colours of `like`, and the other way round. Both are of one number of
+ * channels. */
+otx_status otx_matcher_create_like(
+    otx_run *run, const otx_image *match, bool wrap_x, bool wrap_y,
+    double sigma, int32_t finest_level, const otx_matcher *like,
+    otx_matcher **out);
 
 /* The best placements, ascending by error (times usage), ties by angle, row,
  * column; the orientations are spread over the pool of the run.

@@ -1,6 +1,8 @@
 /* matcher.c -- the exemplar's side of the search, and the exact score. */
 #include "match/matcher.h"
 
+#include <string.h>
+
 enum
 {
     SMALLEST_SIDE = 16 /* of the coarsest level, pixels */
@@ -55,7 +57,16 @@ otx_matcher_create(
     otx_run *run, const otx_image *match, bool wrap_x, bool wrap_y,
     double sigma, int32_t finest_level, otx_matcher **out)
 {
-    double mean[OTX_PLANE_LANES];
+    return otx_matcher_create_like(
+        run, match, wrap_x, wrap_y, sigma, finest_level, NULL, out);
+}
+
+otx_status
+otx_matcher_create_like(
+    otx_run *run, const otx_image *match, bool wrap_x, bool wrap_y,
+    double sigma, int32_t finest_level, const otx_matcher *like,
+    otx_matcher **out)
+{
     otx_matcher *matcher;
 
     *out = NULL;
@@ -72,11 +83,13 @@ otx_matcher_create(
     if (finest_level >= matcher->level_count)
         finest_level = matcher->level_count - 1;
     matcher->finest_level = finest_level < 0 ? 0 : finest_level;
-    mean_color(match, mean);
+    mean_color(match, matcher->mean);
+    if (like)
+        memcpy(matcher->mean, like->mean, sizeof matcher->mean);
     for (int32_t l = 0; l < matcher->level_count; ++l)
         OTX_TRY(otx_plane_create(
-            run, match, wrap_x, wrap_y, l, mean, l >= matcher->finest_level,
-            &matcher->planes[l]));
+            run, match, wrap_x, wrap_y, l, matcher->mean,
+            l >= matcher->finest_level, &matcher->planes[l]));
     *out = matcher;
     return OSDTEX_OK;
 }
@@ -142,12 +155,14 @@ otx_matcher_penalty(
 
 typedef struct scorer
 {
+    const otx_mask *mask;
     const otx_plane *plane;
     double sum;
     double weight;
 } scorer;
 
-/* Squared difference of the mask's colour at `source` and a texel. */
+/* Squared difference of the mask's colour at `source` of a plane and a texel.
+ */
 static inline double
 square_at(const otx_plane *plane, otx_vec2 source, const float *texel)
 {
@@ -170,6 +185,8 @@ score_span(void *context, const otx_mask_span *span)
 {
     scorer *s = context;
     const otx_plane *plane = s->plane;
+    const otx_plane *from =
+        otx_matcher_source(s->mask->triangles[span->triangle].from, plane);
     const int32_t y =
         otx_plane_wrap_index(span->y, plane->height, plane->wrap_y);
     double sum = 0.0, weights = 0.0;
@@ -184,7 +201,7 @@ score_span(void *context, const otx_mask_span *span)
             span->source.x + n * span->source_step.x,
             span->source.y + n * span->source_step.y};
 
-        sum += weight * square_at(plane, source, otx_plane_at(plane, x, y));
+        sum += weight * square_at(from, source, otx_plane_at(plane, x, y));
         weights += weight;
     }
     s->sum += sum;
@@ -200,7 +217,7 @@ otx_matcher_square(
         .rotation = otx_vec2_polar(placement->angle),
         .shift = placement->shift,
         .pixel = {1.0, 1.0}};
-    scorer s = {.plane = &matcher->planes[0]};
+    scorer s = {.mask = mask, .plane = &matcher->planes[0]};
 
     otx_mask_draw(mask, &frame, score_span, &s);
     return s.weight > 0.0 ? s.sum / s.weight : INFINITY;

@@ -18,10 +18,22 @@ struct otx_matcher
     bool wrap_x;
     bool wrap_y;
     double sigma;
-    int32_t finest_level; /* first with spectra */
+    double mean[OTX_PLANE_LANES]; /* that all planes have subtracted */
+    int32_t finest_level;         /* first with spectra */
     int32_t level_count;
     otx_plane planes[OTX_MATCHER_MAX_LEVELS];
 };
+
+/* Where colours of a mask triangle are read, that is compared with `plane`. */
+static inline const otx_plane *
+otx_matcher_source(const otx_matcher *from, const otx_plane *plane)
+{
+    if (!from)
+        return plane;
+    return &from->planes
+                [plane->level < from->level_count ? plane->level
+                                                  : from->level_count - 1];
+}
 
 /* Closed intervals of valid shifts, texels; infinite along axes that tile,
  * empty (low > high) where nothing fits. */

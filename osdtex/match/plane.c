@@ -168,6 +168,7 @@ otx_plane_create(
         .width = side_at_level(match->width, level),
         .height = side_at_level(match->height, level),
         .channels = match->channels,
+        .level = level,
         .wrap_x = wrap_x,
         .wrap_y = wrap_y,
     };

@@ -22,6 +22,7 @@ typedef struct otx_plane
     int32_t width;
     int32_t height;
     int32_t channels;
+    int32_t level; /* halvings */
     bool wrap_x;
     bool wrap_y;
     otx_vec2 pixel; /* size of a pixel, texels of the exemplar */

@@ -67,7 +67,8 @@ pick_span(void *context, const otx_mask_span *span)
                 .source = otx_mask_ramp_source(&ramp, flat),
                 .dx = ramp.dx,
                 .dy = ramp.dy,
-                .weight = weight > 0.0 ? (float)weight : 0.0f};
+                .weight = weight > 0.0 ? (float)weight : 0.0f,
+                .from = triangle->from};
         }
     p->seen = end;
 }
@@ -115,6 +116,7 @@ snap(
     const otx_polish_pick *pick, const otx_plane *plane,
     const otx_mask_frame *frame)
 {
+    const otx_plane *from = otx_matcher_source(pick->from, plane);
     const otx_vec2 q = otx_mask_place(frame, pick->flat);
     const otx_vec2 cell = {floor_of(q.x), floor_of(q.y)};
     const otx_vec2 back = {frame->rotation.x, -frame->rotation.y};
@@ -127,9 +129,8 @@ snap(
     sample s = {.weight = pick->weight};
 
     otx_plane_sample(
-        plane, otx_plane_wrap(x / plane->pixel.x, plane->width, plane->wrap_x),
-        otx_plane_wrap(y / plane->pixel.y, plane->height, plane->wrap_y),
-        s.color);
+        from, otx_plane_wrap(x / from->pixel.x, from->width, from->wrap_x),
+        otx_plane_wrap(y / from->pixel.y, from->height, from->wrap_y), s.color);
     s.x = otx_plane_wrap_index((int32_t)cell.x, plane->width, plane->wrap_x);
     s.y = otx_plane_wrap_index((int32_t)cell.y, plane->height, plane->wrap_y);
     return s;
@@ -414,10 +415,11 @@ sample_colors(
     for (int32_t i = 0; i < picks->count; ++i)
     {
         const otx_vec2 source = picks->list[i].source;
+        const otx_plane *from = otx_matcher_source(picks->list[i].from, plane);
 
         otx_plane_sample(
-            plane, otx_plane_wrap(source.x, plane->width, plane->wrap_x),
-            otx_plane_wrap(source.y, plane->height, plane->wrap_y), colors[i]);
+            from, otx_plane_wrap(source.x, from->width, from->wrap_x),
+            otx_plane_wrap(source.y, from->height, from->wrap_y), colors[i]);
     }
 }
 

@@ -14,6 +14,7 @@ typedef struct otx_polish_pick
     otx_vec2 source;
     otx_vec2 dx, dy; /* how the source moves with flat */
     float weight;
+    const otx_matcher *from; /* as of its triangle */
 } otx_polish_pick;
 
 typedef struct otx_polish_picks

@@ -56,7 +56,7 @@ otx_band_clip(
     cross(t, reach, limit, b, first, &out[0], 0);
     copy(t, b, &out[0], 1);
     copy(t, c, &out[0], 2);
-    copy(&out[0], 0, &out[1], 0);
+    out[1] = out[0];
     copy(t, c, &out[1], 1);
     cross(t, reach, limit, c, first, &out[1], 2);
     return 2;

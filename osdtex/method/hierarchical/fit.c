@@ -94,7 +94,7 @@ make_mask(
         for (int32_t k = 1; k + 1 < chart->first[i + 1] - first; ++k)
         {
             const int32_t at[3] = {0, k, k + 1};
-            otx_mask_triangle t;
+            otx_mask_triangle t = {.from = NULL};
 
             for (int j = 0; j < 3; ++j)
             {

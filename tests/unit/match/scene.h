@@ -78,6 +78,7 @@ scene_mask_make(
                     {{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
                 otx_mask_triangle *t = &out->triangles[count++];
 
+                *t = (otx_mask_triangle){.from = NULL};
                 for (int c = 0; c < 3; ++c)
                 {
                     t->flat[c] = (otx_vec2){

@@ -231,6 +231,60 @@ a_planted_patch_is_found_coarse_to_fine(void **state)
     check_planted(96, 80, true, 1, true, 0.002);
 }
 
+/* A crop that does not tile stands for another exemplar: what the mask shows
+ * of it is found where the crop was taken. */
+static void
+colours_of_another_exemplar_are_matched(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_image image = scene_exemplar(run, 96, 80);
+    const otx_vec2 from = {17.0, 6.0}, shift = {40.0, 30.0};
+    otx_image crop = {60, 66, 3, OTX_NEW(run->arena, float, 60 * 66 * 3)};
+    otx_matcher *matcher = scene_matcher(run, &image, true), *other;
+    double angles[ANGLES];
+    otx_match_query query = otx_match_query_defaults(angles, ANGLES);
+
+    (void)state;
+    for (int32_t y = 0; y < crop.height; ++y)
+        memcpy(
+            otx_image_at(&crop, 0, y),
+            otx_image_at(&image, (int32_t)from.x, (int32_t)from.y + y),
+            (size_t)crop.width * 3 * sizeof(float));
+    assert_int_equal(
+        otx_matcher_create_like(
+            run, &crop, false, false, 1.0, 1, matcher, &other),
+        OSDTEX_OK);
+    make_angles(angles, 0.1);
+    for (int32_t coarse = 0; coarse <= 1; ++coarse)
+        for (int k = 0; k < ANGLES; ++k)
+        {
+            scene_mask scene;
+            otx_match best;
+            int32_t count;
+
+            scene_mask_make(
+                &scene, (otx_vec2){-12.0, -12.0}, 4.0, angles[k], shift);
+            for (int32_t t = 0; t < scene.mask.triangle_count; ++t)
+            {
+                scene.triangles[t].from = other;
+                for (int c = 0; c < 3; ++c)
+                    scene.triangles[t].source[c] =
+                        otx_vec2_sub(scene.triangles[t].source[c], from);
+            }
+            query.coarse_levels = coarse;
+            query.gauss_newton = coarse == 1;
+            assert_int_equal(
+                otx_matcher_search(
+                    run, matcher, &scene.mask, &query, &best, 1, &count),
+                OSDTEX_OK);
+            assert_int_equal(count, 1);
+            assert_true(fabs(best.angle - angles[k]) <= 0.002);
+            expect_shift(matcher, best.shift, shift, 0.1);
+            assert_true(best.error < 1e-3);
+        }
+    test_run_destroy(run);
+}
+
 /* Off the lattice of texels and angles, only Gauss-Newton gets there. */
 static void
 gauss_newton_goes_below_the_texel(void **state)
@@ -567,6 +621,7 @@ main(void)
         cmocka_unit_test(a_mask_larger_than_the_tile_is_folded),
         cmocka_unit_test(a_planted_patch_is_found_at_full_resolution),
         cmocka_unit_test(a_planted_patch_is_found_coarse_to_fine),
+        cmocka_unit_test(colours_of_another_exemplar_are_matched),
         cmocka_unit_test(gauss_newton_goes_below_the_texel),
         cmocka_unit_test(matches_stay_inside_what_does_not_tile),
         cmocka_unit_test(what_does_not_fit_gives_no_match),
