@@ -2,6 +2,7 @@
 """Plain meshes, --scheme none: what comes in goes out, with UVs."""
 
 import json
+import random
 
 from program import CAGES, EXEMPLARS, SHARED, ProgramTest, main
 
@@ -67,6 +68,23 @@ def junctions(side):
         "f %d %d %d\n" % f for f in faces)
 
 
+def crumpled(side):
+    """A sheet whose points are off by more than its edges are long."""
+    noise = random.Random(1)
+    points = [
+        (x + noise.uniform(-0.6, 0.6), y + noise.uniform(-0.6, 0.6),
+         noise.uniform(-3, 3))
+        for y in range(side + 1) for x in range(side + 1)]
+    faces = []
+    for y in range(side):
+        for x in range(side):
+            a = y * (side + 1) + x + 1
+            b = a + side + 1
+            faces += [(a, a + 1, b + 1), (a, b + 1, b)]
+    return "".join("v %r %r %r\n" % p for p in points) + "".join(
+        "f %d %d %d\n" % f for f in faces)
+
+
 def uv_areas(path):
     uvs = [[float(x) for x in line.split()[1:3]] for line in lines(path, "vt")]
     for line in lines(path, "f"):
@@ -120,6 +138,16 @@ class Plain(ProgramTest):
         distortion = json.loads(report.read_text())["distortion"]
         self.assertEqual(distortion["flips"], 0)
         self.assertGreater(min(uv_areas(self.folder / "out.obj")), 0)
+
+    def test_crumpled_faces_are_not_reversed(self):
+        mesh = self.folder / "crumpled.obj"
+        mesh.write_text(crumpled(20))
+        report = self.folder / "out.json"
+        self.assert_exit(
+            self.plain(mesh, "--json-report", report, *QUICK, "--set",
+                       "cut=off", "--set", "relax=off"), 0)
+        distortion = json.loads(report.read_text())["distortion"]
+        self.assertEqual(distortion["flips"], 0)
 
     def test_a_cage_must_be_a_manifold(self):
         result = self.run_map(self.messy(), EXEMPLAR, "--scheme", "bilinear")

@@ -26,6 +26,9 @@ static const double COLLAR_MAXIMUM = 140.0;
 /* A collar holds at least about two rings of leaves. */
 static const double COLLAR_LEAVES = 2.5;
 
+/* Times that a collar is made narrower where it folds its core. */
+static const int NARROWER = 3;
+
 /* Share of the exemplar's shorter side that a patch may fill. */
 static const double EXEMPLAR_SHARE = 0.8;
 
@@ -222,13 +225,31 @@ otx_nodes_collar(const otx_mapper *m, const otx_node *node)
         fmin(COLLAR_MAXIMUM, m->settings.collar * otx_nodes_size(m, node)));
 }
 
+/* A crumpled collar can fold the core that it is laid out with: then a
+ * narrower one is taken, in the end none, which leaves single faces whole. */
+static otx_status
+build_joint(
+    const otx_mapper *m, otx_node *node, otx_chart_request *request,
+    otx_worker *worker)
+{
+    for (int32_t i = NARROWER;; --i)
+    {
+        OTX_TRY(otx_chart_build(
+            request, node->leaves, node->leaf_count, &m->spaces[worker->index],
+            worker->scratch, node->arena, &node->chart));
+        if (i == 0 || node->chart.worst < (double)INFINITY)
+            return OSDTEX_OK;
+        request->collar = i > 1 ? 0.5 * request->collar : 0.0;
+    }
+}
+
 static otx_status
 flatten_node(void *context, int64_t index, otx_worker *worker)
 {
     const flatten_job *job = context;
     otx_mapper *m = job->mapper;
     otx_node *node = &m->nodes[job->first + index];
-    const otx_chart_request request = {
+    otx_chart_request request = {
         .surface = m->surface,
         .leaves = &m->leaves,
         .texels = m->texels,
@@ -249,9 +270,7 @@ flatten_node(void *context, int64_t index, otx_worker *worker)
             &request, node->cluster.level, node->cluster.faces[0],
             &m->spaces[worker->index], worker->scratch, node->arena,
             &node->chart);
-    return otx_chart_build(
-        &request, node->leaves, node->leaf_count, &m->spaces[worker->index],
-        worker->scratch, node->arena, &node->chart);
+    return build_joint(m, node, &request, worker);
 }
 
 void
