@@ -2,7 +2,8 @@
  *
  * The luminance of the centre square is measured (grain.c, lags.c, lattice.c)
  * and classified. Thresholds were set on some twenty photographs and patterns;
- * what they gave is listed in docs/notes/material.md. */
+ * what they gave is listed in docs/notes/material.md, what they make of others
+ * in docs/notes/analysis.md. */
 #include "image/analysis.h"
 
 #include "image/grain.h"
@@ -16,6 +17,10 @@ static const double LATTICE_REGULARITY = 0.45, LATTICE_CONTRAST = 0.12;
 static const double WEAK_REGULARITY = 0.2, WEAK_CONTRAST = 0.15;
 static const double COHERENCE = 0.22;
 static const double TURN_LIKENESS = 0.75;
+
+/* Lighting from the side turns the structure tensor; where the picture is like
+ * itself far along a direction nearby, that is the one. */
+static const double RIDGE_REACH = OTX_PI / 12, RIDGE_LIKENESS = 0.15;
 
 /* Of a grain that is lit from the side, or of shingles. Photographs of wood and
  * bark have .05 to .23, which changes with gamma and crop and is not seen. */
@@ -66,11 +71,16 @@ measure_turn(
 
 /* -- the whole ----------------------------------------------------------- */
 
+static bool
+is_lattice(double regularity, double contrast)
+{
+    return regularity >= LATTICE_REGULARITY && contrast >= LATTICE_CONTRAST;
+}
+
 static void
 classify(otx_analysis *a)
 {
-    const bool lattice =
-        a->regularity >= LATTICE_REGULARITY && a->contrast >= LATTICE_CONTRAST;
+    const bool lattice = is_lattice(a->regularity, a->contrast);
     /* Where there is a grain it says more than a weak lattice. */
     const bool weak = !lattice && a->coherence < COHERENCE &&
                       a->regularity >= WEAK_REGULARITY &&
@@ -103,6 +113,29 @@ classify(otx_analysis *a)
         a->generators[0] = a->generators[1] = (otx_vec2){0, 0};
 }
 
+/* Of roof tiles the columns outshine the ends of the tiles, so that half a tile
+ * further along all looks alike. What changes along the grain is therefore
+ * given as much say as the whole. */
+static otx_status
+look_along(
+    const otx_square *s, otx_lags_correlator *c, const otx_lags *whole,
+    double angle, otx_lattice *lattice)
+{
+    otx_lags map = {.reach = whole->reach};
+    const int32_t w = 2 * map.reach + 1;
+    otx_lattice found;
+    float *slope;
+
+    OTX_TRY(otx_grain_slope(s, angle, &slope));
+    OTX_TRY(otx_lags_likeness(s, c, slope, slope, &map));
+    for (int32_t i = 0; i < w * w; ++i)
+        map.at[i] = 0.5f * (map.at[i] + whole->at[i]);
+    otx_lattice_find(&map, &found);
+    if (is_lattice(found.regularity, found.contrast))
+        *lattice = found;
+    return OSDTEX_OK;
+}
+
 static otx_status
 measure(const otx_square *s, otx_analysis *out)
 {
@@ -110,12 +143,19 @@ measure(const otx_square *s, otx_analysis *out)
     otx_lags_correlator c;
     otx_lattice lattice;
     otx_grain grain;
+    double ridge, likeness;
     otx_vec2 unused;
 
     OTX_TRY(otx_grain_measure(s, &grain));
     OTX_TRY(otx_lags_prepare(s, &c));
     OTX_TRY(otx_lags_likeness(s, &c, s->f, s->f, &map));
     otx_lattice_find(&map, &lattice);
+    ridge = otx_lags_ridge(&map, grain.angle, RIDGE_REACH, &likeness);
+    if (likeness >= RIDGE_LIKENESS)
+        grain.angle = ridge;
+    if (grain.coherence >= COHERENCE &&
+        !is_lattice(lattice.regularity, lattice.contrast))
+        OTX_TRY(look_along(s, &c, &map, grain.angle, &lattice));
     out->angle = grain.angle;
     out->coherence = grain.coherence;
     out->skew = grain.skew;

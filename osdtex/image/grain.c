@@ -77,3 +77,28 @@ otx_grain_measure(const otx_square *s, otx_grain *out)
     out->coherence = fmax(best, 0.0);
     return OSDTEX_OK;
 }
+
+otx_status
+otx_grain_slope(const otx_square *s, double angle, float **out)
+{
+    const int32_t n = s->side;
+    const otx_vec2 d = otx_vec2_polar(angle);
+    float *g = OTX_NEW(s->run->scratch, float, (int64_t)n *n);
+    float *f = OTX_ZNEW(s->run->scratch, float, (int64_t)n *n);
+    double sum = 0.0;
+
+    if (!f || !g)
+        return otx_fail_memory(s->run, "exemplar");
+    OTX_TRY(otx_square_blur(s->run, s->f, g, n, fmax(1.0, n / 256.0)));
+    for (int32_t y = 1; y + 1 < n; ++y)
+        for (int32_t x = 1; x + 1 < n; ++x)
+        {
+            f[y * n + x] =
+                (float)(d.x * (g[y * n + x + 1] - g[y * n + x - 1]) + d.y * (g[(y + 1) * n + x] - g[(y - 1) * n + x]));
+            sum += f[y * n + x];
+        }
+    for (int32_t i = 0; i < n * n; ++i)
+        f[i] -= (float)(sum / ((double)n * n));
+    *out = f;
+    return OSDTEX_OK;
+}

@@ -16,4 +16,8 @@ typedef struct otx_grain
 /* MEMORY. */
 otx_status otx_grain_measure(const otx_square *square, otx_grain *out);
 
+/* What changes along `angle`: the derivative of the square, somewhat blurred,
+ * [side * side] with mean 0 in run->scratch. MEMORY. */
+otx_status otx_grain_slope(const otx_square *square, double angle, float **out);
+
 #endif

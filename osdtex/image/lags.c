@@ -126,3 +126,50 @@ otx_lags_at(const otx_lags *map, otx_vec2 p)
     return (1 - v) * ((1 - u) * at[0] + u * at[1]) +
            v * ((1 - u) * at[w] + u * at[w + 1]);
 }
+
+/* Mean correlation from `near` to `far` texels away. */
+static double
+mean_along(const otx_lags *map, double angle, double near, double far)
+{
+    const otx_vec2 d = otx_vec2_polar(angle);
+    double sum = 0.0;
+    int32_t count = 0;
+
+    for (double r = near; r <= far; r += 1.0, ++count)
+        sum += otx_lags_at(map, otx_vec2_scale(r, d));
+    return count > 0 ? sum / count : 0.0;
+}
+
+double
+otx_lags_ridge(
+    const otx_lags *map, double about, double within, double *likeness)
+{
+    const double last = 0.95 * map->reach;
+    const double step = OTX_PI / 720;
+    const otx_vec2 across = otx_vec2_polar(about + 0.5 * OTX_PI);
+    double width = 1.0, best = -INFINITY, found = about;
+    bool inside = true;
+
+    while (width < last &&
+           otx_lags_at(map, otx_vec2_scale(width, across)) >= 0.5)
+        width += 0.5;
+    /* Beyond a course's own height all that differs from it has its say. */
+    const double near = fmax(3.0, 1.5 * width);
+    const double far = fmin(last, fmax(10.0 * width, last / 3));
+
+    for (double turn = 0.0; turn <= within; turn += step)
+        for (int side = -1; side <= 1; side += 2)
+        {
+            const double angle = about + side * turn;
+            const double v = mean_along(map, angle, near, far);
+
+            if (!(v > best))
+                continue;
+            best = v;
+            found = angle;
+            inside = turn + step <= within;
+        }
+    if (likeness)
+        *likeness = best;
+    return inside ? found : about;
+}

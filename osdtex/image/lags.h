@@ -36,6 +36,14 @@ otx_status otx_lags_likeness(
     const otx_square *square, otx_lags_correlator *correlator, const float *a,
     const float *b, otx_lags *out);
 
+/* The direction within `within` radians of `about` in which the square stays
+ * like itself longest; `about` where that goes on rising beyond.
+ *
+ *   likeness  the mean correlation along it, NULL: not wanted
+ */
+double otx_lags_ridge(
+    const otx_lags *map, double about, double within, double *likeness);
+
 /* Bilinear; NAN beyond reach. */
 double otx_lags_at(const otx_lags *map, otx_vec2 lag);
 

@@ -19,6 +19,9 @@ typedef struct peak
 {
     otx_vec2 at;
     double value;
+    /* Multiples of a generator are as like as it is, and there are more of
+     * them: near ones go first. */
+    double rank;
 } peak;
 
 /* Radius at which the correlation, averaged over a circle, has fallen to a
@@ -71,8 +74,8 @@ refine_peak(const otx_lags *map, int32_t x, int32_t y)
         x + parabola(at[-1], at[0], at[1]), y + parabola(at[-w], at[0], at[w])};
 }
 
-/* Keeps `peaks` in descending order, at least `apart` from each other. Of a
- * lag and its opposite the upper one is kept. */
+/* Keeps `peaks` in descending order of rank, at least `apart` from each other.
+ * Of a lag and its opposite the upper one is kept. */
 static int32_t
 insert_peak(peak *peaks, int32_t count, peak p, double apart)
 {
@@ -81,14 +84,14 @@ insert_peak(peak *peaks, int32_t count, peak p, double apart)
     for (i = 0; i < count; ++i)
         if (otx_vec2_length(otx_vec2_sub(peaks[i].at, p.at)) < apart)
         {
-            if (peaks[i].value >= p.value)
+            if (peaks[i].rank >= p.rank)
                 return count;
             memmove(
                 &peaks[i], &peaks[i + 1],
                 (size_t)(--count - i) * sizeof *peaks);
             --i;
         }
-    for (i = count; i > 0 && peaks[i - 1].value < p.value; --i)
+    for (i = count; i > 0 && peaks[i - 1].rank < p.rank; --i)
         if (i < PEAKS_MAX)
             peaks[i] = peaks[i - 1];
     if (i < PEAKS_MAX)
@@ -106,13 +109,14 @@ find_peaks(const otx_lags *map, peak peaks[PEAKS_MAX])
     for (int32_t y = 0; y < r; ++y)
         for (int32_t x = 1 - r; x < r; ++x)
         {
-            const peak p = {
-                refine_peak(map, x, y), map->at[(y + r) * w + x + r]};
+            peak p = {
+                refine_peak(map, x, y), map->at[(y + r) * w + x + r], 0.0};
 
             if ((y == 0 && x <= 0) || p.value < 0.05 ||
                 otx_vec2_length(p.at) < apart ||
                 otx_vec2_length(p.at) > r - 1 || !is_peak(map, x, y))
                 continue;
+            p.rank = p.value * (1.0 - 0.5 * otx_vec2_length(p.at) / r);
             count = insert_peak(peaks, count, p, apart);
         }
     return count;

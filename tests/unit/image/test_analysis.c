@@ -74,6 +74,39 @@ discs(double x, double y)
     return u * u + v * v < 60 ? 80.0 : 20.0;
 }
 
+/* Rounded columns of 32; the ends of the tiles, 48 apart, are faint. */
+static double
+roof(double x, double y)
+{
+    const double u = x - 32 * floor(x / 32), v = y - 48 * floor(y / 48);
+
+    return 40.0 + 40.0 * sin(OTX_PI * u / 32) - (v < 4 ? 12.0 : 0.0);
+}
+
+/* Bars, by turns in two directions; multiples of the period that are whole
+ * texels are more like than the period is. */
+static double
+tread(double x, double y)
+{
+    const double i = floor(x / 5.7), j = floor(y / 5.7);
+    const double u = x - 5.7 * i - 2.85, v = y - 5.7 * j - 2.85;
+    const bool odd = fmod(i + j, 2.0) != 0.0;
+
+    return fabs(odd ? u + v : u - v) < 1.5 ? 60.0 : 20.0;
+}
+
+/* Level courses under short scratches that slant. */
+static double
+courses(double x, double y)
+{
+    const double c = cos(OTX_PI / 5), s = sin(OTX_PI / 5);
+    const double along = floor((c * x + s * y) / 12 + 1000);
+    const double across = floor((c * y - s * x) / 2 + 1000);
+
+    return (y - 12 * floor(y / 12) < 3 ? 20.0 : 60.0) +
+           20.0 * otx_random_unit(5, (uint32_t)across, (uint64_t)along);
+}
+
 static otx_analysis
 analyse(otx_run *run, paint f, double noise, bool wrap)
 {
@@ -147,6 +180,42 @@ lattices_are_found(void **state)
                 1e-9 &&
             fabs(a.generators[k].y - 32 * round(a.generators[k].y / 32)) <
                 1e-9);
+    test_run_destroy(run);
+}
+
+static void
+faint_ends_make_a_lattice(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_analysis a = analyse(run, roof, 8.0, false);
+
+    (void)state;
+    assert_int_equal(a.kind, OTX_ANALYSIS_LATTICE);
+    assert_true(same_lattice(&a, (otx_vec2){32, 0}, (otx_vec2){0, 48}));
+    test_run_destroy(run);
+}
+
+static void
+the_smallest_cell_is_found(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_analysis a = analyse(run, tread, 4.0, false);
+
+    (void)state;
+    assert_int_equal(a.kind, OTX_ANALYSIS_LATTICE);
+    assert_true(same_lattice(&a, (otx_vec2){5.7, 5.7}, (otx_vec2){-5.7, 5.7}));
+    test_run_destroy(run);
+}
+
+static void
+courses_are_level_under_scratches(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_analysis a = analyse(run, courses, 5.0, false);
+
+    (void)state;
+    assert_true(a.kind != OTX_ANALYSIS_ISOTROPIC);
+    assert_true(fabs(remainder(a.angle, OTX_PI)) < 0.01);
     test_run_destroy(run);
 }
 
@@ -358,6 +427,9 @@ main(void)
         cmocka_unit_test(noise_is_isotropic),
         cmocka_unit_test(grain_has_a_direction),
         cmocka_unit_test(lattices_are_found),
+        cmocka_unit_test(faint_ends_make_a_lattice),
+        cmocka_unit_test(the_smallest_cell_is_found),
+        cmocka_unit_test(courses_are_level_under_scratches),
         cmocka_unit_test(half_turns_have_a_centre),
         cmocka_unit_test(forced_lattices_are_checked),
         cmocka_unit_test(photographs_are_told_apart),
