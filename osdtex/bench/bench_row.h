@@ -25,6 +25,7 @@ typedef struct bench_row
 extern const bench_row bench_row_match;
 extern const bench_row bench_row_scipy;
 extern const bench_row bench_row_surface;
+extern const bench_row bench_row_stages;
 extern const bench_row bench_row_map;
 extern const bench_row bench_row_tile;
 extern const bench_row bench_row_growth;
