@@ -7,6 +7,7 @@
 #include "bench/stopwatch.h"
 #include "bench/workspace.h"
 
+#include "field/nested.h"
 #include "field/scale.h"
 #include "method/material/phase.h"
 
@@ -75,7 +76,7 @@ solve(field_job *job)
         &connection));
     job->solved = 2 * connection.level->face_count;
     note(job, 0, &since);
-    OTX_TRY(otx_direction_solve(&job->run, &connection, &asked, &field));
+    OTX_TRY(otx_nested_solve(&job->run, &connection, &asked, &field));
     note(job, 1, &since);
     OTX_TRY(otx_scale_solve(&job->run, &field, 0.5 * log(2.0), &log_scale));
     note(job, 2, &since);

@@ -42,7 +42,7 @@ solve_field(otx_material *m)
         m->run, m->request->constraints, &m->connection, &request));
     if (request.symmetry == 4)
         request.symmetry = 2; /* coordinates do not change places */
-    OTX_TRY(otx_direction_solve(m->run, &m->connection, &request, &m->field));
+    OTX_TRY(otx_nested_solve(m->run, &m->connection, &request, &m->field));
     OTX_TRY(otx_scale_solve(
         m->run, &m->field, m->settings->octaves * log(2.0), &m->log_scale));
     return otx_constraint_scale(

@@ -10,7 +10,7 @@
 #ifndef OTX_METHOD_MATERIAL_H
 #define OTX_METHOD_MATERIAL_H
 
-#include "field/direction.h"
+#include "field/nested.h"
 #include "field/scale.h"
 #include "field/singularity.h"
 #include "image/analysis.h"
