@@ -1,6 +1,6 @@
 /* material.c -- fields, periodic coordinates, UVs [Ray09, sec. 2].
  */
-#include "method/material/material.h"
+#include "method/material/strips.h"
 
 #include <string.h>
 
@@ -26,6 +26,60 @@ choose_lattice(otx_material *m)
     return OSDTEX_OK;
 }
 
+/* Lattices that hold together along their courses are laid as a whole. */
+static const double LOOSE = 0.3;
+
+enum
+{
+    COURSES_AUTO,
+    COURSES_ON,
+    COURSES_OFF
+};
+
+/* Whether the exemplar is laid course by course; its cell then is a course of
+ * the whole picture's length. */
+static otx_status
+choose_courses(otx_material *m)
+{
+    const otx_exemplar *e = m->exemplar;
+    const int32_t wish = m->settings->courses;
+    otx_vec2 *g = m->analysis.generators;
+    otx_courses found;
+    double height;
+
+    if (wish == COURSES_OFF)
+        return OSDTEX_OK;
+    if (e->wrap_x && e->wrap_y)
+        OTX_TRY(otx_courses_find(m->run, &e->lab, &found));
+    else
+        found.count = 0;
+    if (wish == COURSES_ON && found.count == 0)
+        return otx_fail(
+            m->run, OSDTEX_ERROR_SUPPORT, "map",
+            (otx_where){e->source_path, 0, -1, -1},
+            "courses are asked for, and the exemplar has none that repeat "
+            "across a picture that tiles; try --tileable make, or leave out "
+            "courses=on");
+    if (wish == COURSES_AUTO &&
+        !(otx_courses_are_plain(&found) && m->analysis.contrast < LOOSE))
+        return OSDTEX_OK;
+    m->courses = found;
+    height = (found.joints[found.count] - found.joints[0]) / found.count;
+    m->course_period = found.upright ? e->match.height : e->match.width;
+    m->cell = height / m->texels;
+    g[0] = found.upright ? (otx_vec2){0, m->course_period}
+                         : (otx_vec2){m->course_period, 0};
+    g[1] = found.upright ? (otx_vec2){-height, 0} : (otx_vec2){0, height};
+    m->analysis.angle = found.upright ? 0.5 * OTX_PI : 0.0;
+    otx_note(
+        m->run, OSDTEX_SEVERITY_INFO, "map",
+        (otx_where){e->source_path, 0, -1, -1},
+        "%d courses of %.0f texels, laid one by one (courses=off: as one "
+        "lattice)",
+        (int)found.count, height);
+    return OSDTEX_OK;
+}
+
 static otx_status
 solve_field(otx_material *m)
 {
@@ -44,7 +98,9 @@ solve_field(otx_material *m)
         request.symmetry = 2; /* coordinates do not change places */
     OTX_TRY(otx_nested_solve(m->run, &m->connection, &request, &m->field));
     OTX_TRY(otx_scale_solve(
-        m->run, &m->field, m->settings->octaves * log(2.0), &m->log_scale));
+        m->run, &m->field,
+        m->courses.count > 0 ? 0.0 : m->settings->octaves * log(2.0),
+        &m->log_scale));
     return otx_constraint_scale(
         m->run, m->request->constraints, &m->connection, m->log_scale);
 }
@@ -73,10 +129,25 @@ solve_phases(otx_material *m)
         .cancel = m->settings->cancel * m->cell};
 
     cell_gradients(m, request.gradient);
+    if (m->courses.count > 0)
+        request.gradient[0] = (otx_vec2){0, 0};
     OTX_TRY(otx_phase_solve(m->run, &request, &m->phase));
     OTX_TRY(otx_phase_distance(
         m->run, &m->connection, m->phase.defect, &m->distance));
     return otx_phase_unwrap(m->run, &m->phase, m->distance);
+}
+
+double
+otx_material_density(const otx_material *m, int32_t leaf_face)
+{
+    const otx_level *level = m->connection.level;
+    const int32_t face = otx_material_solved_face(m, leaf_face);
+    double sum = 0.0;
+
+    for (int32_t i = level->face_first[face]; i < level->face_first[face + 1];
+         ++i)
+        sum += m->log_scale[level->face_verts[i]];
+    return m->texels * exp(sum / otx_level_face_size(level, face));
 }
 
 /* Cell coordinates of the corners of one face's children. */
@@ -141,11 +212,14 @@ lay_uvs(otx_material *m)
     if (!m->uvs || !m->face_patch || !m->open)
         return otx_fail_memory(m->run, "map");
     OTX_TRY(refine_cells(m, &m->cells));
+    otx_refill_clear(m);
+    if (m->courses.count > 0)
+        OTX_TRY(otx_bond_lay(m));
     OTX_TRY(otx_refill_choose(m));
     OTX_TRY(otx_label_windows(m, m->open, m->cells));
     OTX_TRY(otx_label_patches(
         m, m->open, m->cells, m->face_patch, &m->patch_count));
-    for (int32_t i = 0; i < leaf->corner_count; ++i)
+    for (int32_t i = 0; m->courses.count == 0 && i < leaf->corner_count; ++i)
         m->uvs[i] = otx_vec2_add(
             m->analysis.centre, otx_vec2_add(
                                     otx_vec2_scale(m->cells[i].x, g[0]),
@@ -187,6 +261,7 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     };
 
     OTX_TRY(choose_lattice(&m));
+    OTX_TRY(choose_courses(&m));
     otx_map_stats_stage(stats, "field");
     OTX_TRY(solve_field(&m));
     otx_map_stats_stage(stats, "phase");

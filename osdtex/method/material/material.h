@@ -14,6 +14,7 @@
 #include "field/scale.h"
 #include "field/singularity.h"
 #include "image/analysis.h"
+#include "image/courses.h"
 #include "method/material/phase.h"
 #include "method/method.h"
 
@@ -21,6 +22,7 @@
 typedef struct otx_material_settings
 {
     int32_t symmetry; /* 0 auto, 1 one, 2 two */
+    int32_t courses;  /* 0 auto, 1 on, 2 off */
     double octaves;
     double cancel;
     double clear;
@@ -32,7 +34,7 @@ typedef struct otx_material_settings
 extern const otx_option otx_material_options[];
 enum
 {
-    OTX_MATERIAL_OPTION_COUNT = 7
+    OTX_MATERIAL_OPTION_COUNT = 8
 };
 
 typedef struct otx_material
@@ -45,7 +47,10 @@ typedef struct otx_material
     otx_map_stats *stats;
     otx_analysis analysis;
     double texels; /* per scene unit */
-    double cell;   /* length of the shorter generator, scene units */
+    double cell;   /* length of the shorter generator, scene units; height of a
+                    * course */
+    otx_courses courses;  /* count 0: the lattice is laid as a whole */
+    double course_period; /* texels after which courses repeat along */
 
     int32_t level;             /* that is solved on */
     otx_connection connection; /* of that level */
@@ -73,7 +78,15 @@ otx_status otx_label_patches(
     const otx_material *m, const uint8_t *open, const otx_vec2 *cells,
     int32_t *face_patch, int32_t *patch_count);
 
-/* refill.c: which leaf faces the periodic texture does not suit, 1 each. */
+/* Texels per scene unit that are asked for on a leaf face. */
+double otx_material_density(const otx_material *m, int32_t leaf_face);
+
+/* The face of the solved level above a leaf face. */
+int32_t otx_material_solved_face(const otx_material *m, int32_t leaf_face);
+
+/* refill.c: opens the leaf faces that lie close to a dislocation. */
+void otx_refill_clear(otx_material *m);
+/* Opens also those that the periodic texture does not suit. MEMORY. */
 otx_status otx_refill_choose(otx_material *m);
 /* Covers them by patches that follow the field. */
 otx_status otx_refill_run(otx_material *m, otx_mapping *out);

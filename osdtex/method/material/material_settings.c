@@ -3,12 +3,16 @@
 
 #define FIELD(member) offsetof(otx_material_settings, member)
 
+static const char *const COURSES[] = {"auto", "on", "off", NULL};
 static const char *const SYMMETRY[] = {"auto", "one", "two", NULL};
 
 const otx_option otx_material_options[] = {
     {"symmetry", OTX_OPTION_CHOICE, FIELD(symmetry), 0, 0, 0, SYMMETRY,
      "Whether the texture may be laid upside down: one direction, or two; auto "
      "asks the exemplar"},
+    {"courses", OTX_OPTION_CHOICE, FIELD(courses), 0, 0, 0, COURSES,
+     "Whether courses of the exemplar may slide along each other, as in "
+     "masonry, so that curvature changes no sizes; auto asks the exemplar"},
     {"octaves", OTX_OPTION_REAL, FIELD(octaves), 0, 3, 0.5, NULL,
      "How far the texture's size may follow the curvature, in octaves; more "
      "gives fewer dislocations, less an even size"},

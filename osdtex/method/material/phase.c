@@ -365,6 +365,13 @@ solve_axis(void *context, int64_t axis, otx_worker *worker)
     if (!mass)
         return OSDTEX_ERROR_MEMORY;
     make_wishes(s, (int)axis);
+    if (otx_vec2_length(s->request->gradient[axis]) == 0.0)
+    {
+        for (int32_t i = 0; i < size; ++i)
+            z[i] = i % 2 == 0 ? 1.0 : 0.0;
+        read_steps(s, (int)axis);
+        return OSDTEX_OK;
+    }
     OTX_TRY(factor(s, (int)axis, worker->scratch, &lhs));
     for (int32_t i = 0; i < size; ++i)
     {

@@ -25,7 +25,7 @@ typedef struct otx_phase_request
     const otx_direction *field; /* of symmetry 1 or 2 */
     const double *log_scale;    /* [vert_count], see otx_scale_solve */
     /* Cells per scene unit of the two coordinates, along the field's direction
-     * and to the left of it. */
+     * and to the left of it. A zero one is not solved for and stays 0. */
     otx_vec2 gradient[2];
     /* Dislocations closer to their opposite are made to meet, scene units. */
     double cancel;

@@ -83,9 +83,8 @@ face_area(const otx_material *m, int32_t leaf_face)
            otx_vec3_length(otx_dual_leaf_area(m->surface, leaf_face, &unused));
 }
 
-/* The face of the solved level above a leaf face. */
-static int32_t
-solved_face(const otx_material *m, int32_t leaf_face)
+int32_t
+otx_material_solved_face(const otx_material *m, int32_t leaf_face)
 {
     int32_t face = leaf_face;
 
@@ -109,13 +108,13 @@ open_narrow(otx_material *m)
         return otx_fail_memory(m->run, "map");
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (m->open[f])
-            marked[solved_face(m, f)] = 1;
+            marked[otx_material_solved_face(m, f)] = 1;
     OTX_TRY(otx_phase_distance(m->run, &m->connection, marked, &distance));
     for (int32_t f = 0; f < count; ++f)
         marked[f] = distance[f] > CORE * m->cell;
     OTX_TRY(otx_phase_distance(m->run, &m->connection, marked, &distance));
     for (int32_t f = 0; f < leaf->face_count; ++f)
-        if (distance[solved_face(m, f)] > KEPT * m->cell)
+        if (distance[otx_material_solved_face(m, f)] > KEPT * m->cell)
             m->open[f] = !leaf->face_hole[f];
     otx_arena_release(m->run->scratch, mark);
     return OSDTEX_OK;
@@ -132,6 +131,17 @@ note_stats(const otx_material *m, double clean, double filled)
     m->stats->filled_share = filled;
 }
 
+void
+otx_refill_clear(otx_material *m)
+{
+    const otx_level *leaf = otx_surface_leaf(m->surface);
+
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        m->open[f] = m->settings->fill && !leaf->face_hole[f] &&
+                     m->distance[otx_material_solved_face(m, f)] <=
+                         m->settings->clear * m->cell;
+}
+
 otx_status
 otx_refill_choose(otx_material *m)
 {
@@ -139,15 +149,14 @@ otx_refill_choose(otx_material *m)
     double clean = 0.0, filled = 0.0, all = 0.0;
 
     for (int32_t f = 0; f < leaf->face_count; ++f)
-        m->open[f] =
+        m->open[f] |=
             m->settings->fill && !leaf->face_hole[f] &&
-            (m->distance[solved_face(m, f)] <= m->settings->clear * m->cell ||
-             !is_unfolded(m, m->cells, f) || !is_sound(m, m->cells, f));
+            (!is_unfolded(m, m->cells, f) || !is_sound(m, m->cells, f));
     if (m->settings->fill)
         OTX_TRY(open_narrow(m));
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {
-        const double distance = m->distance[solved_face(m, f)];
+        const double distance = m->distance[otx_material_solved_face(m, f)];
         const double area = leaf->face_hole[f] ? 0.0 : face_area(m, f);
 
         all += area;
