@@ -156,7 +156,9 @@ trace_chain(const chain *c, int32_t start, otx_courses *out)
 }
 
 static otx_status
-place_joints(otx_run *run, const profile *p, int32_t count, otx_courses *out)
+place_joints(
+    otx_run *run, const profile *p, int32_t count, double along,
+    otx_courses *out)
 {
     const double height = (double)p->size / count;
     chain c = {
@@ -178,6 +180,7 @@ place_joints(otx_run *run, const profile *p, int32_t count, otx_courses *out)
     if (!isfinite(solve_chain(&c, start)))
         return OSDTEX_OK;
     out->count = count;
+    out->period = along;
     trace_chain(&c, start, out);
     for (int32_t k = 0; k < count; ++k)
         out->slip += p->variance[(int32_t)out->joints[k] % p->size] / count;
@@ -205,7 +208,8 @@ find_along(otx_run *run, const otx_image *lab, bool upright, otx_courses *out)
     if (best * COURSE_MIN > p.size)
         return OSDTEX_OK;
     rate_lines(&p, best);
-    OTX_TRY(place_joints(run, &p, best, out));
+    OTX_TRY(
+        place_joints(run, &p, best, upright ? lab->height : lab->width, out));
     if (upright) /* of -x, not of width - x */
         for (int32_t k = 0; k <= out->count; ++k)
             out->joints[k] -= lab->width;
@@ -234,16 +238,15 @@ otx_courses_are_plain(const otx_courses *courses)
            courses->slip <= SLIP;
 }
 
-double
-otx_courses_across(const otx_courses *courses, double course)
+otx_vec2
+otx_courses_texel(const otx_courses *c, double along, double course)
 {
-    const double side = courses->joints[courses->count] - courses->joints[0];
-    const double turns = floor(course / courses->count);
-    const double rest = course - turns * courses->count;
-    int32_t k = (int32_t)rest;
+    const double side = c->joints[c->count] - c->joints[0];
+    const double turns = floor(course / c->count);
+    const double rest = course - turns * c->count;
+    const int32_t k = rest < c->count ? (int32_t)rest : c->count - 1;
+    const double across = turns * side + c->joints[k] +
+                          (rest - k) * (c->joints[k + 1] - c->joints[k]);
 
-    if (k >= courses->count)
-        k = courses->count - 1;
-    return turns * side + courses->joints[k] +
-           (rest - k) * (courses->joints[k + 1] - courses->joints[k]);
+    return c->upright ? (otx_vec2){-across, along} : (otx_vec2){along, across};
 }

@@ -21,6 +21,7 @@ typedef struct otx_courses
     /* Texels across, from joint to joint, ascending: y, or -x of upright ones.
      * The last is the first of the next picture. */
     double joints[OTX_COURSES_MAX + 1];
+    double period;   /* texels along, after which the picture repeats */
     double strength; /* share of the variance that repeats with the courses */
     double slip;     /* variance along the joints, of all; 0: no slip shows */
 } otx_courses;
@@ -33,8 +34,9 @@ otx_courses_find(otx_run *run, const otx_image *lab, otx_courses *out);
 /* Whether slips are so little seen that courses should be laid one by one. */
 bool otx_courses_are_plain(const otx_courses *courses);
 
-/* A position across, in courses counted from joint 0, to texels; goes on
- * beyond the picture on both sides. */
-double otx_courses_across(const otx_courses *courses, double course);
+/* The texel at a position along, in texels, and across, in courses from joint
+ * 0; goes on beyond the picture on all sides. */
+otx_vec2
+otx_courses_texel(const otx_courses *courses, double along, double course);
 
 #endif

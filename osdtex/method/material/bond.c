@@ -27,21 +27,12 @@ typedef struct columns
     float *colors; /* [courses * count * SAMPLES * 3] */
 } columns;
 
-static otx_vec2
-place(const otx_material *m, double along, double course)
-{
-    const double across = otx_courses_across(&m->courses, course);
-
-    return m->courses.upright ? (otx_vec2){-across, along}
-                              : (otx_vec2){along, across};
-}
-
 static otx_status
 read_columns(const otx_material *m, columns *out)
 {
     float *to;
 
-    out->count = (int32_t)fmin(COLUMNS_MAX, m->course_period);
+    out->count = (int32_t)fmin(COLUMNS_MAX, m->courses.period);
     out->colors = to = OTX_NEW(
         m->run->scratch, float,
         3 * (int64_t)m->courses.count * out->count * SAMPLES);
@@ -52,8 +43,8 @@ read_columns(const otx_material *m, columns *out)
             for (int32_t k = 0; k < SAMPLES; ++k, to += 3)
                 otx_image_sample(
                     &m->exemplar->match, true, true,
-                    place(
-                        m, (i + 0.5) * m->course_period / out->count,
+                    otx_courses_texel(
+                        &m->courses, (i + 0.5) * m->courses.period / out->count,
                         c + (k + 0.5) / SAMPLES),
                     to);
     return OSDTEX_OK;
@@ -83,7 +74,7 @@ column_distance(
 static void
 close_ring(const otx_material *m, const columns *c, otx_strip *strip)
 {
-    const double texel = m->course_period / c->count;
+    const double texel = m->courses.period / c->count;
     double best = INFINITY;
 
     for (int32_t start = 0; start < c->count; ++start)
@@ -91,10 +82,11 @@ close_ring(const otx_material *m, const columns *c, otx_strip *strip)
         {
             const double part = (end - start) * texel;
             const double closing =
-                part + m->course_period *
-                           fmax(
-                               round((strip->length - part) / m->course_period),
-                               part > 0.0 ? 0.0 : 1.0);
+                part +
+                m->courses.period *
+                    fmax(
+                        round((strip->length - part) / m->courses.period),
+                        part > 0.0 ? 0.0 : 1.0);
             const double strain = log(closing / strip->length);
             double cost = STRAIN_COST * strain * strain;
 
@@ -117,7 +109,7 @@ close_rings(otx_strips *s)
 
     OTX_TRY(read_columns(s->m, &c));
     for (int32_t i = 0; i < s->count; ++i)
-        if (s->strips[i].loops == 1)
+        if (s->strips[i].length > 0.0)
             close_ring(s->m, &c, &s->strips[i]);
     otx_arena_release(s->m->run->scratch, mark);
     return OSDTEX_OK;
@@ -145,7 +137,7 @@ choose_shift(
     otx_strips *s, int32_t strip, int32_t from,
     const otx_strip_contact *contact)
 {
-    const double period = s->m->course_period;
+    const double period = s->m->courses.period;
     double lag;
 
     if (from < 0)
@@ -165,7 +157,7 @@ rounds_before(const otx_strips *s, int32_t face)
     const otx_strip *strip = &s->strips[s->of[face]];
     double sum = 0.0;
 
-    if (strip->loops != 1)
+    if (!(strip->length > 0.0))
         return 0.0;
     for (int32_t i = leaf->face_first[face]; i < leaf->face_first[face + 1];
          ++i)
@@ -188,13 +180,13 @@ write_face(otx_material *m, const otx_strips *s, int32_t face)
         const double course = strip->course + otx_strips_across(s, face, i);
         const double along = s->along[i] + shift;
 
-        m->uvs[i] = place(m, along, course);
-        m->cells[i] = (otx_vec2){along / m->course_period, course};
+        m->uvs[i] = otx_courses_texel(&m->courses, along, course);
+        m->cells[i] = (otx_vec2){along / m->courses.period, course};
     }
 }
 
 otx_status
-otx_bond_lay(otx_material *m)
+otx_courses_lay(otx_material *m)
 {
     const otx_arena_mark mark = otx_arena_here(m->run->scratch);
     otx_strip_tears tears;

@@ -1,6 +1,6 @@
 /* material.c -- fields, periodic coordinates, UVs [Ray09, sec. 2].
  */
-#include "method/material/strips.h"
+#include "method/material/courses.h"
 
 #include <string.h>
 
@@ -15,68 +15,16 @@ choose_lattice(otx_material *m)
         OTX_TRY(otx_analysis_run(
             m->run, &m->exemplar->lab, m->exemplar->wrap_x, m->exemplar->wrap_y,
             &m->analysis));
-    if (m->analysis.kind != OTX_ANALYSIS_LATTICE)
+    if (m->analysis.kind != OTX_ANALYSIS_LATTICE &&
+        m->settings->courses != OTX_COURSES_ON)
         return otx_fail(
             m->run, OSDTEX_ERROR_SUPPORT, "map",
             (otx_where){m->exemplar->source_path, 0, -1, -1},
             "the exemplar is %s: periodic coordinates need a lattice; give it "
-            "with --generators, or take another method",
+            "with --generators, say --set courses=on for masonry, or take "
+            "another method",
             otx_analysis_name(m->analysis.kind));
     m->cell = fmin(otx_vec2_length(g[0]), otx_vec2_length(g[1])) / m->texels;
-    return OSDTEX_OK;
-}
-
-/* Lattices that hold together along their courses are laid as a whole. */
-static const double LOOSE = 0.3;
-
-enum
-{
-    COURSES_AUTO,
-    COURSES_ON,
-    COURSES_OFF
-};
-
-/* Whether the exemplar is laid course by course; its cell then is a course of
- * the whole picture's length. */
-static otx_status
-choose_courses(otx_material *m)
-{
-    const otx_exemplar *e = m->exemplar;
-    const int32_t wish = m->settings->courses;
-    otx_vec2 *g = m->analysis.generators;
-    otx_courses found;
-    double height;
-
-    if (wish == COURSES_OFF)
-        return OSDTEX_OK;
-    if (e->wrap_x && e->wrap_y)
-        OTX_TRY(otx_courses_find(m->run, &e->lab, &found));
-    else
-        found.count = 0;
-    if (wish == COURSES_ON && found.count == 0)
-        return otx_fail(
-            m->run, OSDTEX_ERROR_SUPPORT, "map",
-            (otx_where){e->source_path, 0, -1, -1},
-            "courses are asked for, and the exemplar has none that repeat "
-            "across a picture that tiles; try --tileable make, or leave out "
-            "courses=on");
-    if (wish == COURSES_AUTO &&
-        !(otx_courses_are_plain(&found) && m->analysis.contrast < LOOSE))
-        return OSDTEX_OK;
-    m->courses = found;
-    height = (found.joints[found.count] - found.joints[0]) / found.count;
-    m->course_period = found.upright ? e->match.height : e->match.width;
-    m->cell = height / m->texels;
-    g[0] = found.upright ? (otx_vec2){0, m->course_period}
-                         : (otx_vec2){m->course_period, 0};
-    g[1] = found.upright ? (otx_vec2){-height, 0} : (otx_vec2){0, height};
-    m->analysis.angle = found.upright ? 0.5 * OTX_PI : 0.0;
-    otx_note(
-        m->run, OSDTEX_SEVERITY_INFO, "map",
-        (otx_where){e->source_path, 0, -1, -1},
-        "%d courses of %.0f texels, laid one by one (courses=off: as one "
-        "lattice)",
-        (int)found.count, height);
     return OSDTEX_OK;
 }
 
@@ -97,6 +45,8 @@ solve_field(otx_material *m)
     if (request.symmetry == 4)
         request.symmetry = 2; /* coordinates do not change places */
     OTX_TRY(otx_nested_solve(m->run, &m->connection, &request, &m->field));
+    if (m->courses.count > 0 && request.pin_count == 0 && !request.pull)
+        otx_courses_turn(m);
     OTX_TRY(otx_scale_solve(
         m->run, &m->field,
         m->courses.count > 0 ? 0.0 : m->settings->octaves * log(2.0),
@@ -214,7 +164,7 @@ lay_uvs(otx_material *m)
     OTX_TRY(refine_cells(m, &m->cells));
     otx_refill_clear(m);
     if (m->courses.count > 0)
-        OTX_TRY(otx_bond_lay(m));
+        OTX_TRY(otx_courses_lay(m));
     OTX_TRY(otx_refill_choose(m));
     OTX_TRY(otx_label_windows(m, m->open, m->cells));
     OTX_TRY(otx_label_patches(
@@ -261,7 +211,7 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     };
 
     OTX_TRY(choose_lattice(&m));
-    OTX_TRY(choose_courses(&m));
+    OTX_TRY(otx_courses_choose(&m));
     otx_map_stats_stage(stats, "field");
     OTX_TRY(solve_field(&m));
     otx_map_stats_stage(stats, "phase");

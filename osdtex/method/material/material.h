@@ -18,11 +18,18 @@
 #include "method/material/phase.h"
 #include "method/method.h"
 
+enum
+{
+    OTX_COURSES_AUTO,
+    OTX_COURSES_ON,
+    OTX_COURSES_OFF
+};
+
 /* Meaning, range and default of each: the table in settings.c. */
 typedef struct otx_material_settings
 {
     int32_t symmetry; /* 0 auto, 1 one, 2 two */
-    int32_t courses;  /* 0 auto, 1 on, 2 off */
+    int32_t courses;
     double octaves;
     double cancel;
     double clear;
@@ -49,8 +56,7 @@ typedef struct otx_material
     double texels; /* per scene unit */
     double cell;   /* length of the shorter generator, scene units; height of a
                     * course */
-    otx_courses courses;  /* count 0: the lattice is laid as a whole */
-    double course_period; /* texels after which courses repeat along */
+    otx_courses courses; /* count 0: the lattice is laid as a whole */
 
     int32_t level;             /* that is solved on */
     otx_connection connection; /* of that level */

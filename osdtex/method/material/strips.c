@@ -155,7 +155,7 @@ contact_of(const otx_strips *s, int32_t edge)
         return out;
     out.above = across > 0.5 ? length : -length;
     out.lag = otx_vec2_scale(
-        length, otx_vec2_polar(2.0 * OTX_PI * lag / s->m->course_period));
+        length, otx_vec2_polar(2.0 * OTX_PI * lag / s->m->courses.period));
     return out;
 }
 

@@ -7,15 +7,15 @@
 #ifndef OTX_METHOD_MATERIAL_STRIPS_H
 #define OTX_METHOD_MATERIAL_STRIPS_H
 
-#include "method/material/material.h"
+#include "method/material/courses.h"
 
 typedef struct otx_strip
 {
     int32_t faces;
     int32_t course; /* of the exemplar that it shows */
-    int32_t loops;  /* ways round which it meets itself */
-    double length;  /* of the last of them, texels; 0: none */
-    double closing; /* texels of the exemplar after which that is closed */
+    int32_t loops;  /* places where it is torn */
+    double length;  /* of a ring, once round, texels; else 0 */
+    double closing; /* texels of the exemplar after which a ring is closed */
     double start;   /* texel with which it begins anew each time */
     double shift;   /* texels that `along` is moved by */
 } otx_strip;
@@ -95,9 +95,5 @@ otx_status otx_unroll_measure(otx_strips *s, otx_strip_tears *out);
 /* Lays `along` so that each strip is as little stretched as can be and closes
  * after `closing`, or, of several loops, whole pictures. NUMERIC, MEMORY. */
 otx_status otx_unroll_solve(otx_strips *s, const otx_strip_tears *tears);
-
-/* bond.c: lays all UVs of an exemplar of courses, and opens what faces have
- * none. Needs cells[].y. */
-otx_status otx_bond_lay(otx_material *m);
 
 #endif

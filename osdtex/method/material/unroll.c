@@ -14,6 +14,9 @@
 /* Faces that are this far apart, in courses, do not lie side by side. */
 static const double APART = 0.75;
 
+/* How much farther than once round a ring may reach as it is first laid. */
+static const double ONCE = 1.25;
+
 /* Holds the free constant of a strip; relative to weights of about one. */
 static const double GROUND = 1e-7;
 
@@ -201,9 +204,40 @@ group_tears(otx_strips *s, otx_strip_tears *t)
     }
     for (int32_t g = 0; g < t->group_count; ++g)
         t->lengths[g] /= members[g];
+    return OSDTEX_OK;
+}
+
+/* A strip that is torn once, after all of its length, is a ring. */
+static otx_status
+find_rings(otx_strips *s, const otx_strip_tears *t)
+{
+    const otx_level *leaf = s->leaf.level;
+    double *low = OTX_NEW(s->m->run->scratch, double, s->count);
+    double *high = OTX_NEW(s->m->run->scratch, double, s->count);
+
+    if (!low || !high)
+        return otx_fail_memory(s->m->run, "map");
+    for (int32_t i = 0; i < s->count; ++i)
+    {
+        low[i] = INFINITY;
+        high[i] = -INFINITY;
+    }
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        for (int32_t i = leaf->face_first[f];
+             s->of[f] >= 0 && i < leaf->face_first[f + 1]; ++i)
+        {
+            low[s->of[f]] = fmin(low[s->of[f]], s->along[i]);
+            high[s->of[f]] = fmax(high[s->of[f]], s->along[i]);
+        }
     for (int32_t i = 0; i < t->count; ++i)
-        s->strips[s->of[t->tears[i].low]].length =
-            t->lengths[t->tears[i].group];
+    {
+        const int32_t strip = s->of[t->tears[i].low];
+        const double length = t->lengths[t->tears[i].group];
+
+        if (s->strips[strip].loops == 1 &&
+            high[strip] - low[strip] < ONCE * length + apart(s))
+            s->strips[strip].length = length;
+    }
     return OSDTEX_OK;
 }
 
@@ -229,7 +263,8 @@ otx_unroll_measure(otx_strips *s, otx_strip_tears *out)
             out->tears[out->count++] =
                 (otx_strip_tear){e, f[lag < 0.0], fabs(lag), 0};
     }
-    return group_tears(s, out);
+    OTX_TRY(group_tears(s, out));
+    return find_rings(s, out);
 }
 
 /* -- the coordinate ------------------------------------------------------ */
@@ -278,7 +313,7 @@ static double
 closing_of(const otx_strips *s, const otx_strip_tears *t, int32_t tear)
 {
     const otx_strip *strip = &s->strips[s->of[t->tears[tear].low]];
-    const double period = s->m->course_period;
+    const double period = s->m->courses.period;
 
     if (strip->loops == 1)
         return strip->closing;

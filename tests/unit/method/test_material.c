@@ -270,6 +270,138 @@ plain_meshes_have_lattices(void **state)
     test_run_destroy(run);
 }
 
+/* -- courses ------------------------------------------------------------- */
+
+/* Four courses of 32 texels, bricks of 64, joints of 6. */
+static otx_exemplar
+make_bricks(otx_run *run)
+{
+    otx_exemplar e = make_exemplar(run, true, true);
+
+    for (int32_t y = 0; y < SIDE; ++y)
+        for (int32_t x = 0; x < SIDE; ++x)
+        {
+            const bool bed = y % 32 < 6;
+            const bool head = (x + y / 32 % 2 * 32) % 64 < 6;
+
+            for (int k = 0; k < 3; ++k)
+                otx_image_at(&e.match, x, y)[k] =
+                    (bed || head ? 20.0f : 70.0f) +
+                    10.0f *
+                        (float)otx_random_unit(5, 0, (uint64_t)(y * SIDE + x));
+        }
+    return e;
+}
+
+static otx_status
+map_courses(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    double scale, otx_mapping *out, otx_map_stats *stats)
+{
+    const otx_method *method = otx_method_find("material");
+    void *settings = otx_arena_zalloc(run->arena, 1, method->settings_bytes);
+    const otx_map_request request = {.scale = scale, .first_face = -1};
+
+    otx_option_defaults(method->options, method->option_count, settings);
+    assert_int_equal(
+        otx_option_set(
+            run, method->options, method->option_count, settings, "courses",
+            "on"),
+        OSDTEX_OK);
+    return otx_method_map(
+        run, method, surface, exemplar, &request, settings, out, stats);
+}
+
+/* Radii differ by a factor of two between the outside of a torus and its
+ * inside, bricks by a quarter at most: courses run round the hole, each of its
+ * own length, and close. */
+static void
+courses_keep_their_size(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_exemplar e = make_bricks(run);
+    const otx_cage_input in = field_torus(run, 16, 8);
+    const field_surface *s = field_from_input(run, &in, 4);
+    const otx_level *leaf = otx_surface_leaf(&s->surface);
+    const double scale = 2.5;
+    otx_map_stats stats;
+    otx_mapping m;
+
+    (void)state;
+    if (map_courses(run, &s->surface, &e, scale, &m, &stats) != OSDTEX_OK)
+        fail_msg("%s", test_last_message(run));
+    check(&m, &e);
+    assert_int_equal(stats.singular_faces, 0);
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        const int32_t first = leaf->face_first[f];
+        otx_vec3 p[3];
+        otx_vec2 q[3];
+        double stretch[2];
+
+        for (int j = 0; j < 3; ++j)
+        {
+            p[j] =
+                otx_vec3_load(s->surface.points, leaf->face_verts[first + j]);
+            q[j] = (otx_vec2){
+                scale * (double)m.uvs[2 * (first + j)],
+                scale * (double)m.uvs[2 * (first + j) + 1]};
+        }
+        otx_stretch_singular(p, q, stretch);
+        assert_true(stretch[0] < 1.25 && stretch[1] > 1.0 / 1.25);
+    }
+    test_run_destroy(run);
+}
+
+static void
+courses_do_not_depend_on_threads(void **state)
+{
+    otx_run *runs[2];
+    otx_mapping m[2];
+
+    (void)state;
+    for (int i = 0; i < 2; ++i)
+    {
+        otx_map_stats stats;
+
+        runs[i] = test_run_create_with(NULL, i == 0 ? 1 : 3);
+
+        otx_exemplar *e = OTX_NEW(runs[i]->arena, otx_exemplar, 1);
+        const otx_cage_input in = mesh_cube(runs[i]);
+        const field_surface *s = field_from_input(runs[i], &in, 4);
+
+        *e = make_bricks(runs[i]);
+        assert_int_equal(
+            map_courses(runs[i], &s->surface, e, 2.0, &m[i], &stats),
+            OSDTEX_OK);
+        check(&m[i], e);
+    }
+    assert_memory_equal(
+        m[0].uvs, m[1].uvs,
+        2 * sizeof(float) *
+            (size_t)otx_surface_leaf(m[0].surface)->corner_count);
+    for (int i = 0; i < 2; ++i)
+        test_run_destroy(runs[i]);
+}
+
+static void
+courses_that_are_not_there_are_refused(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_exemplar e = make_exemplar(run, true, false);
+    const otx_cage_input in = mesh_cube(run);
+    const field_surface *s = field_from_input(run, &in, 3);
+    otx_map_stats stats;
+    otx_mapping m;
+
+    (void)state;
+    assert_int_equal(
+        map_courses(run, &s->surface, &e, 1.5, &m, &stats),
+        OSDTEX_ERROR_SUPPORT);
+    assert_non_null(strstr(test_last_message(run), "courses"));
+    test_run_destroy(run);
+}
+
 static void
 what_has_no_lattice_is_refused(void **state)
 {
@@ -323,6 +455,9 @@ main(void)
         cmocka_unit_test(what_was_done_is_told),
         cmocka_unit_test(no_scraps_of_the_lattice_are_left),
         cmocka_unit_test(plain_meshes_have_lattices),
+        cmocka_unit_test(courses_keep_their_size),
+        cmocka_unit_test(courses_do_not_depend_on_threads),
+        cmocka_unit_test(courses_that_are_not_there_are_refused),
         cmocka_unit_test(what_has_no_lattice_is_refused),
         cmocka_unit_test(the_method_follows_the_exemplar),
     };
