@@ -679,6 +679,20 @@ extern "C"
         const char *value;
     } osdtex_setting;
 
+    enum
+    {
+        OSDTEX_EXEMPLARS_MAX = 4 /* of a mapping */
+    };
+
+    /* One more exemplar of a mapping. */
+    typedef struct osdtex_also
+    {
+        const osdtex_exemplar *exemplar; /* borrowed as the first is */
+        const char *material; /* of the cage: its faces show it; NULL none */
+        double scale; /* width in scene units; 0: as many texels to a unit as
+                       * the first has */
+    } osdtex_also;
+
     typedef struct osdtex_map_options
     {
         size_t size;
@@ -705,6 +719,20 @@ extern "C"
         /* What the field follows, as for osdtex_field_options; NULL: what the
          * file of constraints says, else nothing. */
         const char *follow;
+        /* Up to three exemplars more, for methods that mix them. Which a face
+         * shows is said by its material, by a mask, by a table or by materials
+         * among the constraints (docs/notes/mask.md); the first exemplar goes
+         * wherever nothing is said. */
+        const osdtex_also *also; /* [also_count] */
+        int32_t also_count;
+        int32_t reserved;
+        /* A picture on the cage's UVs, in the unit square: black asks for the
+         * first exemplar, red, green and blue for the second to fourth. NULL
+         * none. */
+        const char *mask;
+        /* [face_count of the cage] 0 the first exemplar, 1 the second, and so
+         * on; NULL none. */
+        const uint8_t *face_exemplars;
     } osdtex_map_options;
 
     static inline osdtex_map_options osdtex_map_options_default(void)
@@ -723,6 +751,11 @@ extern "C"
             NULL,
             NULL,
             {0.0, 0.0, 0.0, 0.0},
+            NULL,
+            NULL,
+            0,
+            0,
+            NULL,
             NULL};
 
         return options;
@@ -737,10 +770,14 @@ extern "C"
         const float *uvs;               /* [corner_count * 2] */
         const osdtex_index *face_patch; /* [face_count], -1 on holes */
         osdtex_index patch_count;
-        osdtex_index reserved;
+        int32_t exemplar_count;        /* 1 unless there are more */
+        const uint8_t *patch_exemplar; /* [patch_count] which one each patch is
+                                        * from, 0 the first; NULL: all are */
     } osdtex_mapping_info;
 
-    /* ARGUMENT (with near names), LIMIT, NUMERIC, MEMORY, CANCELLED. */
+    /* ARGUMENT (with near names), LIMIT, NUMERIC, MEMORY, CANCELLED; of several
+     * exemplars also FORMAT and IO (of a mask) and SUPPORT (a method that takes
+     * one). */
     OSDTEX_API osdtex_status osdtex_map(
         osdtex_context *context, const osdtex_surface *surface,
         const osdtex_exemplar *exemplar, const osdtex_map_options *options,
@@ -764,7 +801,9 @@ extern "C"
         return options;
     }
 
-    /* Writes NAME.obj (`path`), NAME.mtl and NAME.exr, all or none of them.
+    /* Writes NAME.obj (`path`), NAME.mtl and NAME.exr, all or none of them. Of
+     * several exemplars NAME_1.exr, NAME_2.exr and so on, each with materials
+     * of its own.
      * ARGUMENT, IO, LIMIT, MEMORY, CANCELLED. */
     OSDTEX_API osdtex_status osdtex_mapping_write(
         osdtex_context *context, const osdtex_mapping *mapping,

@@ -77,8 +77,7 @@ bake(
         OTX_TRY(otx_call_colour(call, &how.colour));
     OTX_TRY(otx_layout_build(&call->run, &mapping->mapping, &place, &layout));
     return otx_look_write(
-        &call->run, &mapping->mapping, &mapping->exemplar->exemplar, &layout,
-        &how);
+        &call->run, &mapping->mapping, mapping->exemplars, &layout, &how);
 }
 
 osdtex_status

@@ -61,7 +61,7 @@ otx_field_report_add(otx_run *run, const osdtex_mapping *mapping, json_t *root)
         run, &connection, guide->symmetry, guide->directions, &direction));
     OTX_TRY(otx_singularity_find(run, &direction, &list));
     OTX_TRY(otx_alignment_measure(
-        run, &mapping->mapping, &mapping->exemplar->exemplar, &alignment));
+        run, &mapping->mapping, mapping->exemplars, &alignment));
     field = json_object();
     json_object_set_new(root, "field", field);
     json_object_set_new(field, "symmetry", json_integer(guide->symmetry));

@@ -42,7 +42,12 @@ struct osdtex_mapping
 {
     otx_arena *arena;
     const osdtex_surface *surface;
-    const osdtex_exemplar *exemplar;
+    const osdtex_exemplar *exemplar; /* the first */
+    const osdtex_exemplar *sources[OTX_EXEMPLARS_MAX];
+    int32_t source_count;
+    /* [source_count] what the mapping is made of and measured by: those of the
+     * sources, compared at as many texels to a unit. */
+    const otx_exemplar *exemplars;
     otx_mapping mapping;
     otx_map_stats stats;
     /* What was asked, as resolved. */

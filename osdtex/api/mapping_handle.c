@@ -3,6 +3,7 @@
 #include "api/handle.h"
 #include "api/map_input.h"
 #include "api/method_settings.h"
+#include "api/several.h"
 #include "base/near.h"
 #include "export/model.h"
 
@@ -21,11 +22,12 @@ choose_method(otx_run *run, const char *name, osdtex_mapping *handle)
 {
     char near_names[256];
 
-    if (name && strcmp(name, "auto") == 0)
+    if (name && strcmp(name, "auto") == 0 && !handle->request.demand)
         return otx_method_choose(
             run, &handle->surface->surface, &handle->exemplar->exemplar,
             &handle->request, &handle->method);
-    handle->method = name ? otx_method_find(name) : otx_method_at(0);
+    handle->method = name && strcmp(name, "auto") != 0 ? otx_method_find(name)
+                                                       : otx_method_at(0);
     if (handle->method)
         return OSDTEX_OK;
     otx_near_text(name ? name : "", method_name, NULL, near_names);
@@ -85,6 +87,8 @@ info_of(const osdtex_mapping *handle)
         .uvs = handle->mapping.uvs,
         .face_patch = handle->mapping.face_patch,
         .patch_count = handle->mapping.patch_count,
+        .exemplar_count = handle->source_count,
+        .patch_exemplar = handle->mapping.patch_exemplar,
     };
 }
 
@@ -111,6 +115,7 @@ map(otx_run *run, const osdtex_surface *surface,
     OTX_TRY(choose_request(run, surface, &ours, &handle->request));
     OTX_TRY(otx_map_input_constraints(
         run, ours.constraints, ours.follow, &handle->request.constraints));
+    OTX_TRY(otx_several_take(run, &ours, handle));
     OTX_TRY(otx_map_input_analysis(
         run, &ours, &exemplar->exemplar, &handle->request.analysis));
     OTX_TRY(choose_method(run, ours.method, handle));
@@ -119,7 +124,7 @@ map(otx_run *run, const osdtex_surface *surface,
         &exemplar->exemplar, &handle->settings));
     run->seed = ours.seed;
     OTX_TRY(otx_method_map(
-        run, handle->method, &surface->surface, &exemplar->exemplar,
+        run, handle->method, &surface->surface, handle->exemplars,
         &handle->request, handle->settings, &handle->mapping, &handle->stats));
     handle->info = info_of(handle);
     *out = handle;
@@ -173,7 +178,7 @@ write_mapping(
     how.comment_count = ours.comment_count;
     how.comments = ours.comments;
     return otx_model_write(
-        run, &mapping->mapping, &mapping->exemplar->exemplar, &how, &files);
+        run, &mapping->mapping, mapping->exemplars, &how, &files);
 }
 
 osdtex_status

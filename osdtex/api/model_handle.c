@@ -334,7 +334,7 @@ create_model(otx_call *call, const osdtex_mapping *mapping, osdtex_model **out)
     otx_run *run = &call->run;
     osdtex_model *handle = OTX_ZNEW(run->arena, osdtex_model, 1);
     loader l = {.call = call};
-    otx_exemplar exemplar;
+    otx_exemplar exemplars[OTX_EXEMPLARS_MAX];
 
     if (!handle)
         return otx_fail_memory(run, "model");
@@ -343,11 +343,14 @@ create_model(otx_call *call, const osdtex_mapping *mapping, osdtex_model **out)
             run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
             "no mapping is given");
     OTX_TRY(open_colour(call, &l));
-    exemplar = mapping->exemplar->exemplar;
-    OTX_TRY(texture_from(&l, &mapping->exemplar->exemplar, &exemplar.linear));
+    for (int32_t k = 0; k < mapping->source_count; ++k)
+    {
+        exemplars[k] = mapping->exemplars[k];
+        OTX_TRY(texture_from(&l, &mapping->exemplars[k], &exemplars[k].linear));
+    }
     handle->arena = run->arena;
     OTX_TRY(otx_scene_from_mapping(
-        run, &mapping->mapping, &exemplar, &handle->scene));
+        run, &mapping->mapping, exemplars, &handle->scene));
     handle->surface = &mapping->surface->surface;
     handle->guide = mapping->mapping.guide;
     handle->lattice = mapping->mapping.lattice;

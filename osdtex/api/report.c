@@ -96,6 +96,17 @@ add_array(json_t *parent, const char *key)
 }
 
 static void
+put_exemplar(json_t *e, const osdtex_exemplar_info *exemplar)
+{
+    set_text(e, "path", exemplar->path);
+    set_text(e, "hash", exemplar->hash);
+    set_text(e, "type", exemplar->type);
+    set_int(e, "width", exemplar->width);
+    set_int(e, "height", exemplar->height);
+    set_int(e, "channels", exemplar->channels);
+}
+
+static void
 put_inputs(json_t *root, const osdtex_mapping *mapping)
 {
     const osdtex_cage_info *cage = &mapping->surface->cage->info;
@@ -115,12 +126,45 @@ put_inputs(json_t *root, const osdtex_mapping *mapping)
     set_int(c, "corners", cage->corner_count);
     set_int(c, "holes", cage->hole_count);
     set_real(c, "diagonal", cage->diagonal);
-    set_text(e, "path", exemplar->path);
-    set_text(e, "hash", exemplar->hash);
-    set_text(e, "type", exemplar->type);
-    set_int(e, "width", exemplar->width);
-    set_int(e, "height", exemplar->height);
-    set_int(e, "channels", exemplar->channels);
+    put_exemplar(e, exemplar);
+}
+
+/* Of several: what became of each. */
+static void
+put_exemplars(
+    json_t *root, const osdtex_mapping *mapping, const otx_measure *measure)
+{
+    json_t *list, *transitions;
+
+    if (mapping->source_count == 1)
+        return;
+    list = add_array(root, "exemplars");
+    for (int32_t k = 0; k < mapping->source_count; ++k)
+    {
+        const osdtex_exemplar_info *info = &mapping->sources[k]->info;
+        const otx_exemplar *exemplar = &mapping->exemplars[k];
+        const otx_measure_share *share = &measure->shares[k];
+        json_t *one = json_object();
+
+        json_array_append_new(list, one);
+        put_exemplar(one, info);
+        set_text(one, "from", info->source_space);
+        set_text(one, "class", mapping->stats.classes[k]);
+        set(one, "wrap_x", json_boolean(info->wrap_x));
+        set(one, "wrap_y", json_boolean(info->wrap_y));
+        set_real(
+            one, "scale",
+            mapping->mapping.scale * exemplar->match.width /
+                mapping->exemplars[0].match.width);
+        set_int(one, "faces", share->faces);
+        set_real(
+            one, "area_share",
+            measure->area > 0.0 ? share->area / measure->area : 0.0);
+        set_real(one, "coverage", share->coverage);
+    }
+    transitions = add_object(root, "transitions");
+    set_real(transitions, "length_texels", measure->transition_length);
+    set_real(transitions, "delta_e_rms", measure->transition_rms);
 }
 
 static void
@@ -380,7 +424,7 @@ write_report(otx_call *call, const osdtex_mapping *mapping, const char *path)
     how.window_count = WINDOWS;
     run->seed = mapping->seed;
     OTX_TRY(otx_measure_run(
-        run, &mapping->mapping, &mapping->exemplar->exemplar, &how, &measure));
+        run, &mapping->mapping, mapping->exemplars, &how, &measure));
     root = json_object();
     if (!root || !otx_arena_defer(run->arena, release_json, root))
     {
@@ -396,6 +440,7 @@ write_report(otx_call *call, const osdtex_mapping *mapping, const char *path)
     OTX_TRY(otx_field_report_add(run, mapping, root));
     put_seams(root, &measure);
     put_distortion(root, &measure);
+    put_exemplars(root, mapping, &measure);
     put_cost(root, context, mapping);
     put_diagnostics(root, context);
     return dump(run, root, path);

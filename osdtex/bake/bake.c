@@ -4,6 +4,8 @@
  * is one more index of the loop, and the first to be taken. */
 #include "bake/bake.h"
 
+#include "mapping/source.h"
+
 #include <stdlib.h>
 
 static const char STAGE[] = "bake";
@@ -166,26 +168,42 @@ otx_bake_tile(
     return status;
 }
 
+/* Of the colours of all exemplars: with alpha when one has it. */
+static int32_t
+color_channels(const otx_exemplar *exemplars, int32_t count)
+{
+    int32_t most = 0;
+
+    for (int32_t k = 0; k < count; ++k)
+        if (exemplars[k].linear.channels > most)
+            most = exemplars[k].linear.channels;
+    return most;
+}
+
 otx_status
 otx_bake_create(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_layout *layout, const otx_bake_options *options, otx_bake *out)
 {
+    const int32_t count = otx_source_count(mapping);
+
     *out = (otx_bake){
         .seam_blend =
             options->kind == OTX_TEXEL_COLOR ? options->seam_blend : 0.0,
         .source = {
             .mapping = mapping,
             .layout = layout,
-            .exemplar = exemplar,
+            .exemplars = exemplars,
             .kind = options->kind,
             .channels = options->kind == OTX_TEXEL_COLOR
-                            ? exemplar->linear.channels
+                            ? color_channels(exemplars, count)
                             : 3,
         }};
-    return otx_texture_create(
-        run, run->arena, &exemplar->linear, exemplar->wrap_x, exemplar->wrap_y,
-        &out->source.texture);
+    for (int32_t k = 0; k < count; ++k)
+        OTX_TRY(otx_texture_create(
+            run, run->arena, &exemplars[k].linear, exemplars[k].wrap_x,
+            exemplars[k].wrap_y, &out->source.textures[k]));
+    return OSDTEX_OK;
 }
 
 const char *

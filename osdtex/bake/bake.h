@@ -54,7 +54,7 @@ typedef struct otx_bake
 
 /* Prepares a bake, in run->arena; borrows all. MEMORY. */
 otx_status otx_bake_create(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_layout *layout, const otx_bake_options *options, otx_bake *out);
 
 /* Bakes the layout's tile number `tile` (its index), all levels. The same bits

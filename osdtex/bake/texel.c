@@ -8,6 +8,7 @@
 #include "bake/texel.h"
 
 #include "bake/sharpen.h"
+#include "mapping/source.h"
 
 #include <string.h>
 
@@ -88,6 +89,23 @@ set_coordinates(const otx_page *page, otx_texel_piece *piece)
     }
 }
 
+static const otx_texture *
+texture_of(const otx_texel_source *source, int32_t face)
+{
+    return &source->textures[otx_source_of(source->mapping, face)];
+}
+
+/* A picture without alpha is opaque beside one that has it. */
+static void
+probe(
+    const otx_texel_source *source, const otx_texture *texture,
+    const otx_texture_probes *probes, otx_vec2 uv, float *color)
+{
+    otx_texture_probe(texture, probes, uv, color);
+    if (texture->pyramid.levels[0].channels < source->channels)
+        color[3] = 1.0f;
+}
+
 static int64_t
 facet_id(int32_t face, int32_t index)
 {
@@ -104,17 +122,18 @@ set_piece(const block *b, int64_t id, otx_texel_piece *piece)
     piece->id = id;
     piece->facet = otx_facet_at(leaf, (int32_t)(id >> 16), id & 0xFFFF);
     piece->chart = source->layout->chart[piece->facet.face];
+    piece->texture = texture_of(source, piece->facet.face);
     set_coordinates(b->page, piece);
     piece->uv = mix_uv(source, &piece->facet, piece->at);
     piece->uv_dx = mix_uv(source, &piece->facet, piece->dx);
     piece->uv_dy = mix_uv(source, &piece->facet, piece->dy);
     piece->probes =
-        otx_texture_measure(&source->texture, piece->uv_dx, piece->uv_dy);
+        otx_texture_measure(piece->texture, piece->uv_dx, piece->uv_dy);
     piece->is_plain = piece->probes.count == 1 && piece->probes.level == 0 &&
                       piece->probes.fraction == 0.0;
     if (!piece->is_plain)
         piece->probes = otx_texture_measure(
-            &source->texture, otx_vec2_scale(share, piece->uv_dx),
+            piece->texture, otx_vec2_scale(share, piece->uv_dx),
             otx_vec2_scale(share, piece->uv_dy));
 }
 
@@ -191,9 +210,9 @@ stretch_of(const otx_texel_source *source, const otx_facet *facet, double s[2])
 {
     const otx_surface *surface = source->layout->surface;
     const int32_t *verts = otx_surface_leaf(surface)->face_verts;
-    const otx_image *image = &source->exemplar->linear;
-    const double width = source->mapping->scale;
-    const double height = width * image->height / image->width;
+    const otx_vec2 unit = otx_source_unit(
+        source->mapping, source->exemplars,
+        otx_source_of(source->mapping, facet->face));
     otx_vec3 p[3];
     otx_vec2 q[3];
 
@@ -202,7 +221,7 @@ stretch_of(const otx_texel_source *source, const otx_facet *facet, double s[2])
         const otx_vec2 uv = corner_uv(source, facet->corners[k]);
 
         p[k] = otx_vec3_load(surface->points, verts[facet->corners[k]]);
-        q[k] = (otx_vec2){uv.x * width, uv.y * height};
+        q[k] = (otx_vec2){uv.x * unit.x, uv.y * unit.y};
     }
 
     const otx_vec2 q1 = otx_vec2_sub(q[1], q[0]), q2 = otx_vec2_sub(q[2], q[0]);
@@ -270,13 +289,13 @@ color_at(const block *b, const otx_walk *walk, double share, float *color)
         return;
     }
 
+    const otx_texture *texture = texture_of(source, walk->facet.face);
     const otx_texture_probes probes = otx_texture_measure(
-        &source->texture,
-        otx_vec2_scale(share, mix_uv(source, &walk->facet, walk->dx)),
+        texture, otx_vec2_scale(share, mix_uv(source, &walk->facet, walk->dx)),
         otx_vec2_scale(share, mix_uv(source, &walk->facet, walk->dy)));
 
-    otx_texture_probe(
-        &source->texture, &probes, mix_uv(source, &walk->facet, walk->at),
+    probe(
+        source, texture, &probes, mix_uv(source, &walk->facet, walk->at),
         color);
 }
 
@@ -294,8 +313,8 @@ static void
 sample_color(
     const block *b, const otx_texel_piece *piece, otx_vec2 at, float *color)
 {
-    otx_texture_probe(
-        &b->source->texture, &piece->probes, piece_uv(piece, at), color);
+    probe(
+        b->source, piece->texture, &piece->probes, piece_uv(piece, at), color);
 }
 
 static int64_t
@@ -360,9 +379,10 @@ typedef enum texel_state
 static texel_state
 state_of(block *b, int32_t x, int32_t y, int32_t first, otx_vec2 *uv)
 {
-    const otx_image *image = &b->source->texture.pyramid.levels[0];
     const otx_vec2 centre = otx_raster_texel(&b->raster, x, y);
     const otx_texel_piece *piece = piece_of(b, sample_id(b, x, y, first));
+    const otx_texture *texture = piece->texture;
+    const otx_image *image = &texture->pyramid.levels[0];
     const int32_t chart = piece->chart;
     bool is_plain = piece->is_plain;
     int64_t seen = piece->id;
@@ -382,7 +402,8 @@ state_of(block *b, int32_t x, int32_t y, int32_t first, otx_vec2 *uv)
 
         const otx_vec2 d = otx_vec2_sub(piece_uv(piece, centre), *uv);
 
-        if (piece->chart != chart || !(fabs(d.x) * image->width < AGREED) ||
+        if (piece->chart != chart || piece->texture != texture ||
+            !(fabs(d.x) * image->width < AGREED) ||
             !(fabs(d.y) * image->height < AGREED))
             return TEXEL_TORN;
     }
@@ -435,8 +456,9 @@ texel_color(
 
     if (state == TEXEL_WHOLE)
     {
-        otx_texture_probe(
-            &b->source->texture, &(otx_texture_probes){.count = 1}, uv, out);
+        probe(
+            b->source, texture_of(b->source, (int32_t)(home >> 16)),
+            &(otx_texture_probes){.count = 1}, uv, out);
         return;
     }
     for (int32_t s = 0; s < n * n; ++s)

@@ -25,8 +25,8 @@ typedef struct otx_texel_source
 {
     const otx_mapping *mapping;
     const otx_layout *layout;
-    const otx_exemplar *exemplar;
-    otx_texture texture; /* the exemplar's linear pixels */
+    const otx_exemplar *exemplars;
+    otx_texture textures[OTX_EXEMPLARS_MAX]; /* their linear pixels */
     otx_texel_kind kind;
     int32_t channels; /* of what is baked */
 } otx_texel_source;
@@ -36,6 +36,7 @@ typedef struct otx_texel_piece
 {
     int64_t id; /* -1 none */
     int32_t chart;
+    const otx_texture *texture;
     otx_facet facet;
     double at[3], dx[3], dy[3]; /* barycentric: at texel (0, 0), and changes */
     otx_vec2 uv, uv_dx, uv_dy;  /* likewise, in the exemplar */

@@ -246,7 +246,8 @@ make_offer(scene *s, int32_t index)
                 otx_vec2_mul(turn, chart->flat[chart->corners[c]]), shift);
     }
     first[chart->face_count] = n;
-    s->offers[index] = (otx_offer){chart->face_count, faces, uvs, first, NULL};
+    s->offers[index] =
+        (otx_offer){chart->face_count, faces, uvs, first, NULL, 0};
     for (int32_t i = 0; i < chart->core_count; ++i)
         s->labels[chart->faces[i]] = index;
     return OSDTEX_OK;

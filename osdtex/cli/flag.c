@@ -19,9 +19,11 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "how to texture; `osdtex methods` lists them, auto chooses by the "
          "exemplar (default: the first)"},
     [OTX_FLAG_SCALE] =
-        {"scale", 0, OTX_FLAG_GROUP_MAIN, "S",
+        {"scale", 0, OTX_FLAG_GROUP_MAIN, "S[,S...]",
          "width of the exemplar on the surface, in scene units (default: a "
-         "fifth of the diagonal of the cage's bounding box)"},
+         "fifth of the diagonal of the cage's bounding box), and of those of "
+         "--also in their order (default: as many texels to a unit as the "
+         "first has)"},
     [OTX_FLAG_LEVEL] =
         {"level", 0, OTX_FLAG_GROUP_MAIN, "N|auto",
          "times the cage is subdivided, 0 to 10 (default auto: leaf edges of "
@@ -33,6 +35,18 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"set", 0, OTX_FLAG_GROUP_MAIN, "KEY=VALUE",
          "a setting of the method, as often as needed; `osdtex methods NAME` "
          "lists them"},
+    [OTX_FLAG_ALSO] =
+        {"also", 0, OTX_FLAG_GROUP_MAIN, "[MATERIAL=]FILE",
+         "another exemplar, up to three times: for the faces of the cage that "
+         "have this material (usemtl), or for those that --mask or the "
+         "materials of --constraints say; EXEMPLAR goes everywhere else, and "
+         "the seams between them run within --set transition=TEXELS of where "
+         "they are asked for. =FILE for a name with a ="},
+    [OTX_FLAG_MASK] =
+        {"mask", 0, OTX_FLAG_GROUP_MAIN, "FILE",
+         "a picture on the cage's own UVs that says where exemplars go: black "
+         "for EXEMPLAR; red, green and blue for the first, second and third "
+         "--also; what weighs most on a face wins"},
     [OTX_FLAG_FIRST_PATCH] =
         {"first-patch", 0, OTX_FLAG_GROUP_MAIN, "FACE,U,V,ANGLE",
          "begin at this face of the cage (0-based), its middle at U,V of the "
@@ -361,6 +375,18 @@ take_edge(const char *text, otx_flag_values *out)
     return true;
 }
 
+static bool
+take_also(const char *text, otx_flag_values *out)
+{
+    if (out->also_count == OTX_FLAG_ALSO_MAX)
+    {
+        fprintf(stderr, "osdtex: error: --also is given too often\n");
+        return false;
+    }
+    out->also[out->also_count++] = text;
+    return true;
+}
+
 /* KEY=VALUE into the list; argv is ours to cut. */
 static bool
 take_setting(char *text, otx_flag_values *out)
@@ -441,6 +467,8 @@ otx_flag_parse(
         if (id == OTX_FLAG_SET && !take_setting(optarg, out))
             return false;
         if (id == OTX_FLAG_EDGE_TEMPLATE && !take_edge(optarg, out))
+            return false;
+        if (id == OTX_FLAG_ALSO && !take_also(optarg, out))
             return false;
     }
 }

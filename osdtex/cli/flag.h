@@ -17,6 +17,8 @@ typedef enum otx_flag_id
     OTX_FLAG_LEVEL,
     OTX_FLAG_SEED,
     OTX_FLAG_SET,
+    OTX_FLAG_ALSO,
+    OTX_FLAG_MASK,
     OTX_FLAG_FIRST_PATCH,
     OTX_FLAG_CONSTRAINTS,
     OTX_FLAG_FOLLOW,
@@ -106,7 +108,8 @@ enum
 {
     OTX_FLAG_SETTINGS_MAX = 64,
     OTX_FLAG_OPERANDS_MAX = 8,
-    OTX_FLAG_EDGES_MAX = 8
+    OTX_FLAG_EDGES_MAX = 8,
+    OTX_FLAG_ALSO_MAX = 8
 };
 
 /* A command line, taken apart. Strings point into argv. */
@@ -117,6 +120,8 @@ typedef struct otx_flag_values
     int setting_count;
     const char *edges[OTX_FLAG_EDGES_MAX]; /* of --edge-template, in order */
     int edge_count;
+    const char *also[OTX_FLAG_ALSO_MAX]; /* of --also, in order */
+    int also_count;
     const char *operands[OTX_FLAG_OPERANDS_MAX];
     int operand_count;
 } otx_flag_values;

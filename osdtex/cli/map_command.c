@@ -1,5 +1,6 @@
 /* map_command.c -- osdtex map and osdtex bake: a cage and an exemplar in, a
  * textured model out, or the cage with textures. */
+#include "cli/also_flags.h"
 #include "cli/bake_flags.h"
 #include "cli/bake_outputs.h"
 #include "cli/inputs.h"
@@ -28,10 +29,12 @@ typedef struct job
     osdtex_exemplar_options exemplar_options;
     osdtex_surface_options surface_options;
     osdtex_map_options map_options;
+    otx_also_flags also;
     osdtex_setting settings[OTX_FLAG_SETTINGS_MAX + 1];
     osdtex_bake_options bake_options;
     bool maps, bakes; /* which files are asked for */
-    char obj[PATH_BYTES], mtl[PATH_BYTES], exr[PATH_BYTES];
+    char obj[PATH_BYTES], mtl[PATH_BYTES];
+    char exrs[OSDTEX_EXEMPLARS_MAX][PATH_BYTES]; /* "" none */
     char cage_obj[PATH_BYTES], cage_mtl[PATH_BYTES];
     const char *preview, *report; /* NULL none */
     bool has_hash;
@@ -51,6 +54,22 @@ name_beside(const char *obj, const char *suffix, char out[PATH_BYTES])
     const int base = (int)strlen(obj) - 4;
 
     return snprintf(out, PATH_BYTES, "%.*s%s", base, obj, suffix) < PATH_BYTES;
+}
+
+/* NAME.exr, or of several exemplars NAME_1.exr and so on. */
+static bool
+name_textures(job *j)
+{
+    char suffix[32] = ".exr";
+
+    for (int k = 0; k <= j->also.count; ++k)
+    {
+        if (j->also.count > 0)
+            snprintf(suffix, sizeof suffix, "_%d.exr", k + 1);
+        if (!name_beside(j->mtl, suffix, j->exrs[k]))
+            return false;
+    }
+    return true;
 }
 
 /* NAME.mtl and NAME.exr beside NAME.obj, NAME_cage.obj and NAME_cage.mtl of a
@@ -75,9 +94,7 @@ name_outputs(job *j)
         if (*name == ' ')
             *name = '_';
     memcpy(j->mtl + length - 4, ".mtl", 5);
-    memcpy(j->exr, j->mtl, length + 1);
-    memcpy(j->exr + length - 4, ".exr", 5);
-    if (name_beside(j->mtl, "_cage.obj", j->cage_obj) &&
+    if (name_textures(j) && name_beside(j->mtl, "_cage.obj", j->cage_obj) &&
         name_beside(j->mtl, "_cage.mtl", j->cage_mtl))
         return true;
     otx_session_refuse("'%s' is too long a name", path);
@@ -104,20 +121,31 @@ same_file(const char *a, const char *b)
 static bool
 outputs_are_apart(const job *j)
 {
-    const char *const outputs[] = {
+    enum
+    {
+        INPUTS = OSDTEX_EXEMPLARS_MAX + 3,
+        OUTPUTS = OSDTEX_EXEMPLARS_MAX + 6
+    };
+    const char *inputs[INPUTS] = {
+        j->values->operands[0], j->values->operands[1],
+        j->values->text[OTX_FLAG_MASK], j->values->text[OTX_FLAG_CONSTRAINTS]};
+    const char *outputs[OUTPUTS] = {
         j->maps ? j->obj : NULL,
         j->maps ? j->mtl : NULL,
-        j->maps ? j->exr : NULL,
         j->bakes ? j->cage_obj : NULL,
         j->bakes ? j->cage_mtl : NULL,
         j->preview,
         j->report};
 
-    for (int i = 0; i < 7; ++i)
+    for (int k = 0; k < j->also.count; ++k)
+        inputs[4 + k] = j->also.files[k];
+    for (int k = 0; j->maps && k <= j->also.count; ++k)
+        outputs[6 + k] = j->exrs[k];
+    for (int i = 0; i < OUTPUTS; ++i)
     {
-        for (int k = 0; outputs[i] && k < 2; ++k)
+        for (int k = 0; outputs[i] && k < INPUTS; ++k)
         {
-            if (!same_file(outputs[i], j->values->operands[k]))
+            if (!same_file(outputs[i], inputs[k]))
                 continue;
             otx_session_refuse(
                 "'%s' is an input and would be replaced; choose another name "
@@ -164,7 +192,6 @@ static bool
 parse_numbers(job *j)
 {
     const char *level = j->values->text[OTX_FLAG_LEVEL];
-    const char *scale = j->values->text[OTX_FLAG_SCALE];
     const char *seed = j->values->text[OTX_FLAG_SEED];
     int64_t number;
 
@@ -179,13 +206,7 @@ parse_numbers(job *j)
         }
         j->surface_options.level = (int32_t)number;
     }
-    if (scale && (!otx_value_real(scale, &j->map_options.scale) ||
-                  !(j->map_options.scale > 0.0)))
-    {
-        otx_session_refuse(
-            "--scale takes a positive number of scene units, not '%s'", scale);
-        return false;
-    }
+    j->map_options.scale = j->also.scale;
     if (seed && !otx_value_int(seed, 0, INT64_MAX, &number))
     {
         otx_session_refuse("--seed takes a whole number, not '%s'", seed);
@@ -230,6 +251,7 @@ parse_fields(job *j)
 {
     const char *text = j->values->text[OTX_FLAG_GENERATORS];
 
+    j->map_options.mask = j->values->text[OTX_FLAG_MASK];
     j->map_options.constraints = j->values->text[OTX_FLAG_CONSTRAINTS];
     j->map_options.follow = j->values->text[OTX_FLAG_FOLLOW];
     j->map_options.exemplar_class = j->values->text[OTX_FLAG_EXEMPLAR_CLASS];
@@ -276,7 +298,8 @@ parse(job *j, const otx_flag_values *values, bool bake_only)
     j->report = values->text[OTX_FLAG_JSON_REPORT];
     if (!otx_inputs_cage(values, &j->cage_options) ||
         !otx_inputs_exemplar(values, &j->exemplar_options) ||
-        !otx_bake_flags_parse(values, &j->bake_options) || !name_outputs(j) ||
+        !otx_bake_flags_parse(values, &j->bake_options) ||
+        !otx_also_flags_parse(values, &j->also) || !name_outputs(j) ||
         !parse_numbers(j) || !parse_tile_level(j) || !parse_first_patch(j) ||
         !parse_fields(j))
         return false;
@@ -290,12 +313,20 @@ parse(job *j, const otx_flag_values *values, bool bake_only)
 }
 
 static bool
+has_textures(const job *j)
+{
+    for (int k = 0; k <= j->also.count; ++k)
+        if (access(j->exrs[k], F_OK) != 0)
+            return false;
+    return true;
+}
+
+static bool
 is_done(const job *j)
 {
     return j->has_hash &&
-           (!j->maps ||
-            (otx_up_to_date_check(j->obj, j->hash) &&
-             access(j->mtl, F_OK) == 0 && access(j->exr, F_OK) == 0)) &&
+           (!j->maps || (otx_up_to_date_check(j->obj, j->hash) &&
+                         access(j->mtl, F_OK) == 0 && has_textures(j))) &&
            (!j->bakes || otx_bake_outputs_are_done(
                              j->cage_obj, &j->bake_options, j->hash)) &&
            (!j->preview || access(j->preview, F_OK) == 0) &&
@@ -315,8 +346,13 @@ read_inputs(otx_session *session, job *j)
         status = osdtex_exemplar_read(
             session->context, j->values->operands[1], &j->exemplar_options,
             &j->exemplar);
+    if (status == OSDTEX_OK)
+        status = otx_also_flags_read(
+            session->context, &j->exemplar_options, &j->also);
     if (status != OSDTEX_OK)
         return status;
+    j->map_options.also = j->also.list;
+    j->map_options.also_count = j->also.count;
     otx_session_lap(session, "inputs read");
     cage = osdtex_cage_describe(j->cage);
     if (j->map_options.scale == 0.0)
@@ -407,8 +443,16 @@ say_plan(const job *j)
         j->values->operands[0], surface->face_count, surface->level,
         j->values->operands[1], e->width, e->height, j->map_options.scale,
         j->map_options.method ? j->map_options.method : method.name);
+    for (int k = 0; k < j->also.count; ++k)
+        printf(
+            "and           %s%s%s%s\n", j->also.files[k],
+            j->also.materials[k][0] ? " on the material " : "",
+            j->also.materials[k],
+            j->map_options.mask ? ", where the mask says" : "");
     if (j->maps)
-        printf("into          %s, %s, %s\n", j->obj, j->mtl, j->exr);
+        printf(
+            "into          %s, %s, %s%s\n", j->obj, j->mtl, j->exrs[0],
+            j->also.count > 0 ? " and so on" : "");
     if (j->bakes)
         printf(
             "baked into    %s, %s and their textures of %d texels\n",
@@ -426,8 +470,9 @@ say_done(otx_session *session, const job *j)
 
     if (j->maps)
         otx_session_say(
-            session, "wrote %s, %s, %s: %d faces in %d patches, %.1f s", j->obj,
-            j->mtl, j->exr, mapping->face_count, mapping->patch_count,
+            session, "wrote %s, %s, %s%s: %d faces in %d patches, %.1f s",
+            j->obj, j->mtl, j->exrs[0], j->also.count > 0 ? " and so on" : "",
+            mapping->face_count, mapping->patch_count,
             otx_session_seconds(session));
     if (j->bakes)
         otx_session_say(
@@ -475,6 +520,7 @@ clean_up(job *j)
     osdtex_image_destroy(j->picture);
     osdtex_mapping_destroy(j->mapping);
     osdtex_surface_destroy(j->surface);
+    otx_also_flags_destroy(&j->also);
     osdtex_exemplar_destroy(j->exemplar);
     osdtex_cage_destroy(j->cage);
 }

@@ -1,5 +1,6 @@
 /* up_to_date.c -- hashing jobs, finding the hash again. */
 #include "cli/up_to_date.h"
+#include "cli/also_flags.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -77,6 +78,15 @@ put_job(FILE *out, const otx_flag_values *values)
     if (values->text[OTX_FLAG_CONSTRAINTS] &&
         !put_file(out, values->text[OTX_FLAG_CONSTRAINTS]))
         return false;
+    if (values->text[OTX_FLAG_MASK] &&
+        !put_file(out, values->text[OTX_FLAG_MASK]))
+        return false;
+    for (int i = 0; i < values->also_count; ++i)
+    {
+        if (!put_file(out, otx_also_flags_file(values->also[i])))
+            return false;
+        fprintf(out, "--also %s\n", values->also[i]);
+    }
     /* The exemplar's name can choose its colour space, by a file rule. */
     fprintf(out, "exemplar %s\n", values->operands[1]);
     for (size_t i = 0; i < sizeof matter / sizeof matter[0]; ++i)

@@ -26,7 +26,7 @@ typedef struct writer
 {
     otx_run *run;
     const otx_mapping *mapping;
-    const otx_exemplar *exemplar;
+    const otx_exemplar *exemplars; /* all in one linear space */
     const otx_layout *layout;
     const otx_look_options *options;
     otx_atomic_file_set *set;
@@ -154,7 +154,7 @@ make_slots(otx_run *run, target *t)
 static otx_exr_options
 exr_options(const writer *w, otx_texel_kind kind)
 {
-    const otx_exemplar *exemplar = w->exemplar;
+    const otx_exemplar *exemplar = w->exemplars;
     otx_exr_options options = otx_exr_options_default();
 
     options.full_float = kind != OTX_TEXEL_COLOR;
@@ -199,7 +199,7 @@ write_preview(const writer *w, int32_t tile, otx_image *image)
     unassociate(image);
     if (display)
         OTX_TRY(otx_colour_convert(
-            w->run, colour, w->exemplar->linear_space, display, image));
+            w->run, colour, w->exemplars->linear_space, display, image));
     else
         otx_note(
             w->run, OSDTEX_SEVERITY_WARNING, STAGE, OTX_NOWHERE,
@@ -255,7 +255,7 @@ write_kind(const writer *w, otx_texel_kind kind)
     otx_bake bake;
 
     OTX_TRY(otx_bake_create(
-        w->run, w->mapping, w->exemplar, w->layout, &options, &bake));
+        w->run, w->mapping, w->exemplars, w->layout, &options, &bake));
     for (int32_t tile = 0; tile < w->layout->tile_count; ++tile)
     {
         const otx_arena_mark mark = otx_arena_here(w->run->scratch);
@@ -394,7 +394,7 @@ write_mtlx(const writer *w)
 {
     const char *path = path_of(w, ".mtlx");
     const otx_mtlx mtlx = {
-        w->names.stem, texture_name(w, ".exr"), w->exemplar->interop_id};
+        w->names.stem, texture_name(w, ".exr"), w->exemplars->interop_id};
     const char *temporary;
 
     if (!path || !mtlx.texture)
@@ -430,7 +430,7 @@ write_mesh(const writer *w)
     options = *w->options->mesh;
     options.path = w->options->path;
     options.set = w->set;
-    return otx_model_write(w->run, w->mapping, w->exemplar, &options, &files);
+    return otx_model_write(w->run, w->mapping, w->exemplars, &options, &files);
 }
 
 static otx_status
@@ -451,14 +451,14 @@ write_files(const writer *w)
 
 otx_status
 otx_look_write(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_layout *layout, const otx_look_options *options)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     writer w = {
         .run = run,
         .mapping = mapping,
-        .exemplar = exemplar,
+        .exemplars = exemplars,
         .layout = layout,
         .options = options,
     };

@@ -33,7 +33,7 @@ typedef struct otx_look_options
 /* Bakes `mapping` onto `layout` and writes all files. ARGUMENT, IO, NUMERIC,
  * MEMORY, CANCELLED. */
 otx_status otx_look_write(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_layout *layout, const otx_look_options *options);
 
 #endif

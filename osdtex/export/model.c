@@ -6,7 +6,9 @@
 #include "export/uv_pool.h"
 #include "file/mtl.h"
 #include "file/obj_write.h"
+#include "mapping/source.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const char STAGE[] = "export";
@@ -19,7 +21,16 @@ typedef struct leaf_faces
     int32_t *verts;   /* [corner_count] */
     float *uvs;       /* [corner_count * 2] */
     int32_t *parents; /* [count], cage face */
+    uint8_t *sources; /* [count], exemplar */
 } leaf_faces;
+
+/* The written materials, each with one texture. */
+typedef struct material_list
+{
+    int32_t count;
+    const char **names;
+    int32_t *sources; /* exemplars */
+} material_list;
 
 static otx_status
 allocate_faces(otx_run *run, const otx_level *leaf, leaf_faces *out)
@@ -31,8 +42,10 @@ allocate_faces(otx_run *run, const otx_level *leaf, leaf_faces *out)
         .verts = OTX_NEW(run->scratch, int32_t, corners),
         .uvs = OTX_NEW(run->scratch, float, corners * 2),
         .parents = OTX_NEW(run->scratch, int32_t, leaf->face_count),
+        .sources = OTX_NEW(run->scratch, uint8_t, leaf->face_count),
     };
-    if (!out->first || !out->verts || !out->uvs || !out->parents)
+    if (!out->first || !out->verts || !out->uvs || !out->parents ||
+        !out->sources)
         return otx_fail_memory(run, STAGE);
     out->first[0] = 0;
     return OSDTEX_OK;
@@ -69,6 +82,7 @@ gather_faces(otx_run *run, const otx_mapping *mapping, leaf_faces *out)
             out->uvs + 2 * to, mapping->uvs + 2 * from,
             2 * size * sizeof *out->uvs);
         out->corner_count += (int32_t)size;
+        out->sources[out->count] = (uint8_t)otx_source_of(mapping, f);
         out->parents[out->count++] = leaf->face_cage[f];
         out->first[out->count] = out->corner_count;
     }
@@ -142,6 +156,98 @@ carry_materials(
     return OSDTEX_OK;
 }
 
+/* A name that is not among `names`: "BASE_K", K from 1. NULL when memory is
+ * out. */
+static const char *
+name_apart(
+    otx_run *run, const otx_obj_names *names, const char *base, int32_t source)
+{
+    const size_t bytes = strlen(base) + 32;
+    char *name = OTX_NEW(run->scratch, char, bytes);
+    int length =
+        name ? snprintf(name, bytes, "%s_%d", base, (int)source + 1) : 0;
+
+    while (name && find_name(names->text, names->count, name) >= 0 &&
+           length + 2 < (int)bytes)
+    {
+        name[length++] = '_';
+        name[length] = '\0';
+    }
+    return name;
+}
+
+/* The exemplar that most faces of each material show. */
+static int32_t *
+main_sources(
+    otx_run *run, const leaf_faces *faces, const otx_obj *obj, int64_t *counts)
+{
+    int32_t *main = OTX_ZNEW(run->scratch, int32_t, obj->materials.count);
+
+    for (int32_t f = 0; main && f < faces->count; ++f)
+        ++counts[OTX_EXEMPLARS_MAX * obj->face_material[f] + faces->sources[f]];
+    for (int32_t m = 0; main && m < obj->materials.count; ++m)
+        for (int32_t k = 1; k < OTX_EXEMPLARS_MAX; ++k)
+            if (counts[OTX_EXEMPLARS_MAX * m + k] >
+                counts[OTX_EXEMPLARS_MAX * m + main[m]])
+                main[m] = k;
+    return main;
+}
+
+/* Divides materials whose faces show several exemplars: the faces of the one
+ * that most show keep the name, the others' get a number behind it; those of
+ * `fallback` all do. */
+static otx_status
+divide_materials(
+    otx_run *run, const leaf_faces *faces, const char *fallback, otx_obj *obj,
+    material_list *out)
+{
+    const int32_t most = OTX_EXEMPLARS_MAX * obj->materials.count;
+    int64_t *counts = OTX_ZNEW(run->scratch, int64_t, most);
+    int32_t *index = OTX_NEW(run->scratch, int32_t, most);
+    int32_t *indices = OTX_NEW(run->scratch, int32_t, faces->count);
+    const int32_t *main;
+
+    out->names = OTX_NEW(run->scratch, const char *, most);
+    out->sources = OTX_NEW(run->scratch, int32_t, most);
+    if (!counts || !index || !indices || !out->names || !out->sources)
+        return otx_fail_memory(run, STAGE);
+    main = main_sources(run, faces, obj, counts);
+    if (!main)
+        return otx_fail_memory(run, STAGE);
+    for (int32_t i = 0; i < most; ++i)
+    {
+        const int32_t k = i % OTX_EXEMPLARS_MAX;
+        const char *base = obj->materials.text[i / OTX_EXEMPLARS_MAX];
+        const bool keeps =
+            main[i / OTX_EXEMPLARS_MAX] == k && strcmp(base, fallback) != 0;
+
+        if (counts[i] == 0)
+            continue;
+        index[i] = out->count;
+        out->sources[out->count] = k;
+        out->names[out->count] =
+            keeps ? base : name_apart(run, &obj->materials, base, k);
+        if (!out->names[out->count++])
+            return otx_fail_memory(run, STAGE);
+    }
+    for (int32_t f = 0; f < faces->count; ++f)
+        indices[f] = index
+            [OTX_EXEMPLARS_MAX * obj->face_material[f] + faces->sources[f]];
+    obj->materials = (otx_obj_names){out->count, out->names};
+    obj->face_material = indices;
+    return OSDTEX_OK;
+}
+
+/* All of one texture. */
+static otx_status
+list_materials(otx_run *run, const otx_obj *obj, material_list *out)
+{
+    out->count = obj->materials.count;
+    out->names = NULL;
+    out->sources = OTX_ZNEW(run->scratch, int32_t, out->count);
+    return out->sources ? OSDTEX_OK : otx_fail_memory(run, STAGE);
+}
+
 static void
 set_points(const otx_surface *surface, otx_obj *out)
 {
@@ -161,7 +267,7 @@ set_points(const otx_surface *surface, otx_obj *out)
 static otx_status
 describe_obj(
     otx_run *run, const otx_mapping *mapping, const otx_names *names,
-    otx_obj *out)
+    otx_obj *out, material_list *materials)
 {
     const otx_cage *cage = mapping->surface->cage;
     const char **library = OTX_NEW(run->scratch, const char *, 1);
@@ -199,7 +305,10 @@ describe_obj(
     OTX_TRY(carry_names(
         run, &faces, cage->face_smooth, cage->smooth_count, cage->smooth_names,
         &out->smooths, &out->face_smooth));
-    return carry_materials(run, cage, &faces, names->stem, out);
+    OTX_TRY(carry_materials(run, cage, &faces, names->stem, out));
+    return otx_source_count(mapping) > 1
+               ? divide_materials(run, &faces, names->stem, out, materials)
+               : list_materials(run, out, materials);
 }
 
 static otx_status
@@ -221,7 +330,7 @@ write_obj(
 static otx_status
 write_mtl(
     otx_run *run, otx_atomic_file_set *set, const otx_names *names,
-    const otx_obj_names *materials)
+    const otx_obj *obj, const material_list *materials)
 {
     otx_mtl_material *list =
         OTX_NEW(run->scratch, otx_mtl_material, materials->count);
@@ -232,9 +341,9 @@ write_mtl(
         return otx_fail_memory(run, STAGE);
     for (int32_t i = 0; i < materials->count; ++i)
         list[i] = (otx_mtl_material){
-            .name = materials->text[i],
+            .name = obj->materials.text[i],
             .diffuse = {1.0f, 1.0f, 1.0f},
-            .map_kd = names->exr_name,
+            .map_kd = names->texture_names[materials->sources[i]],
         };
     OTX_TRY(otx_atomic_file_add(run, set, names->mtl, &temporary));
     return otx_mtl_write(run, &mtl, temporary, names->mtl);
@@ -245,43 +354,48 @@ write_mtl(
 static otx_status
 write_files(
     otx_run *run, const otx_names *names, const otx_obj *obj,
-    const otx_exemplar *exemplar, const otx_model_options *options)
+    const material_list *materials, const otx_exemplar *exemplars,
+    const otx_model_options *options)
 {
     otx_atomic_file_set *set = options->set;
 
     if (!set)
         OTX_TRY(otx_atomic_file_begin(run, run->scratch, &set));
-    if (!options->without_image)
+    for (int32_t k = 0; !options->without_image && k < names->texture_count;
+         ++k)
         OTX_TRY(otx_texture_file_write(
-            run, set, names->exr, exemplar, &exemplar->linear,
-            &exemplar->tiles));
-    OTX_TRY(write_mtl(run, set, names, &obj->materials));
+            run, set, names->textures[k], &exemplars[k], &exemplars[k].linear,
+            &exemplars[k].tiles));
+    OTX_TRY(write_mtl(run, set, names, obj, materials));
     OTX_TRY(write_obj(run, set, names, obj, options));
     return options->set ? OSDTEX_OK : otx_atomic_file_commit(run, set, true);
 }
 
 otx_status
 otx_model_write(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_model_options *options, otx_model_files *out)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
+    material_list materials = {0};
     otx_names names;
     otx_obj obj;
     otx_status status;
 
     *out = (otx_model_files){0};
     OTX_TRY(otx_names_derive(run, run->arena, options->path, &names));
-    status = describe_obj(run, mapping, &names, &obj);
+    OTX_TRY(
+        otx_names_number(run, run->arena, otx_source_count(mapping), &names));
+    status = describe_obj(run, mapping, &names, &obj, &materials);
     if (status == OSDTEX_OK)
-        status = write_files(run, &names, &obj, exemplar, options);
+        status = write_files(run, &names, &obj, &materials, exemplars, options);
     otx_arena_release(run->scratch, mark);
     if (status != OSDTEX_OK)
         return status;
     *out = (otx_model_files){
         .obj = names.obj,
         .mtl = names.mtl,
-        .exr = options->without_image ? NULL : names.exr,
+        .exr = options->without_image ? NULL : names.textures[0],
         .uv_count = obj.uv_count,
     };
     return OSDTEX_OK;

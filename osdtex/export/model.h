@@ -26,24 +26,28 @@ typedef struct otx_model_options
 /* What was written; strings in run->arena. */
 typedef struct otx_model_files
 {
-    const char *obj, *mtl, *exr; /* paths; exr NULL when not written */
+    const char *obj, *mtl, *exr; /* paths; exr, of the first exemplar, NULL when
+                                  * not written */
     int64_t uv_count;            /* of the OBJ's vt lines */
 } otx_model_files;
 
 /* Writes the leaf level of `mapping` on the limit surface as NAME.obj, its
- * materials as NAME.mtl, the exemplar as NAME.exr.
+ * materials as NAME.mtl, the exemplar as NAME.exr; several exemplars as
+ * NAME_1.exr and so on.
  *
  * Vertices and faces keep their order: faces are the children of cage face 0,
  * of cage face 1, …; holes are left out, vertices that no face uses stay.
  * Equal UVs of a vertex share one `vt`. Groups, objects, smoothing and
  * materials of the cage are carried; where the cage names no material the name
- * is NAME; all of them show the same texture. See export/names.h for NAMEs that
+ * is NAME; all of them show the same texture. A material has one texture: where
+ * its faces show several, those of the most common one keep its name, others
+ * get a number behind it; NAME always does. See export/names.h for NAMEs that
  * readers would split.
  *
  * ARGUMENT for a path that is not an OBJ's or UVs that are not finite, IO,
  * MEMORY. */
 otx_status otx_model_write(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_model_options *options, otx_model_files *out);
 
 #endif

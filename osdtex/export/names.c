@@ -1,6 +1,7 @@
 /* names.c -- which files a model is made of. */
 #include "export/names.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -84,5 +85,29 @@ otx_names_derive(
     };
     if (!out->obj || !out->mtl || !out->exr || !out->mtl_name || !out->exr_name)
         return otx_fail_memory(run, STAGE);
+    out->texture_count = 1;
+    out->textures[0] = out->exr;
+    out->texture_names[0] = out->exr_name;
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_names_number(
+    otx_run *run, otx_arena *arena, int32_t count, otx_names *names)
+{
+    const size_t folder_bytes = strlen(names->mtl) - strlen(names->mtl_name);
+
+    for (int32_t k = 0; count > 1 && k < count; ++k)
+    {
+        char suffix[32];
+
+        snprintf(suffix, sizeof suffix, "_%d.exr", (int)k + 1);
+        names->textures[k] =
+            join(arena, names->mtl, folder_bytes, names->stem, suffix);
+        names->texture_names[k] = join(arena, "", 0, names->stem, suffix);
+        if (!names->textures[k] || !names->texture_names[k])
+            return otx_fail_memory(run, STAGE);
+    }
+    names->texture_count = count;
     return OSDTEX_OK;
 }

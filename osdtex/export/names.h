@@ -4,6 +4,11 @@
 
 #include "base/run.h"
 
+enum
+{
+    OTX_NAMES_TEXTURES = 4
+};
+
 /* Strings live in the arena they were made in. */
 typedef struct otx_names
 {
@@ -11,6 +16,11 @@ typedef struct otx_names
     const char *mtl_name; /* without the folder, as the OBJ refers to it */
     const char *exr_name; /* as the MTL refers to it */
     const char *stem;     /* NAME, readable as one word */
+    /* Of each exemplar: NAME.exr, or NAME_1.exr and so on. */
+    int32_t texture_count;
+    const char *textures[OTX_NAMES_TEXTURES]; /* paths */
+    const char
+        *texture_names[OTX_NAMES_TEXTURES]; /* as the MTL refers to them */
 } otx_names;
 
 /* Derives NAME.mtl and NAME.exr from `path`, FOLDER/NAME.obj. What readers of
@@ -20,5 +30,10 @@ typedef struct otx_names
  * name, MEMORY. */
 otx_status otx_names_derive(
     otx_run *run, otx_arena *arena, const char *path, otx_names *out);
+
+/* Gives names of one exemplar the textures of `count`, up to
+ * OTX_NAMES_TEXTURES. MEMORY. */
+otx_status otx_names_number(
+    otx_run *run, otx_arena *arena, int32_t count, otx_names *names);
 
 #endif

@@ -6,6 +6,7 @@
  * not depend on the number of threads. */
 #include "image/exemplar.h"
 
+#include "image/texture.h"
 #include "image/tileable.h"
 
 #include <math.h>
@@ -536,6 +537,68 @@ otx_exemplar_rearrange(
     OTX_TRY(rearrange(run, &from->lab, texels, &made.lab));
     OTX_TRY(measure_both(run, rows, &made));
     made.wrap_x = made.wrap_y = true;
+    *out = made;
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
+
+/* One picture at another size. */
+typedef struct resizing
+{
+    const otx_texture *from;
+    otx_image *to;
+} resizing;
+
+static otx_status
+resize_row(void *context, int64_t y, otx_worker *worker)
+{
+    const resizing *r = context;
+    const otx_vec2 dx = {1.0 / r->to->width, 0.0};
+    const otx_vec2 dy = {0.0, 1.0 / r->to->height};
+
+    (void)worker;
+    for (int32_t x = 0; x < r->to->width; ++x)
+        otx_texture_filter(
+            r->from, (otx_vec2){(x + 0.5) * dx.x, ((double)y + 0.5) * dy.y}, dx,
+            dy, otx_image_at(r->to, x, (int32_t)y));
+    return OSDTEX_OK;
+}
+
+static otx_status
+resize(
+    otx_run *run, const otx_exemplar *e, const otx_image *from, int32_t width,
+    int32_t height, otx_image *out)
+{
+    otx_texture texture;
+    resizing r = {&texture, out};
+
+    OTX_TRY(otx_texture_create(
+        run, run->scratch, from, e->wrap_x, e->wrap_y, &texture));
+    OTX_TRY(otx_image_create(run, run->arena, width, height, 3, out));
+    return otx_pool_for(run->pool, height, resize_row, &r);
+}
+
+otx_status
+otx_exemplar_resize(
+    otx_run *run, const otx_exemplar *from, int32_t width, int32_t height,
+    otx_exemplar *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    row_result *rows = OTX_ZNEW(run->scratch, row_result, height);
+    otx_exemplar made = *from;
+
+    if (width < OTX_EXEMPLAR_MIN_SIDE || height < OTX_EXEMPLAR_MIN_SIDE)
+        return otx_fail(
+            run, OSDTEX_ERROR_LIMIT, stage,
+            (otx_where){from->source_path, 0, -1, -1},
+            "at its scale the picture has %d x %d texels of the first "
+            "exemplar's size, too few to texture with",
+            (int)width, (int)height);
+    if (!rows)
+        return otx_fail_memory(run, stage);
+    OTX_TRY(resize(run, from, &from->match, width, height, &made.match));
+    OTX_TRY(resize(run, from, &from->lab, width, height, &made.lab));
+    OTX_TRY(measure_both(run, rows, &made));
     *out = made;
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;

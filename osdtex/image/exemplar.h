@@ -15,7 +15,7 @@
 typedef struct otx_exemplar
 {
     otx_image linear; /* 3 or 4 channels (R, G, B[, A]) */
-    otx_image match;  /* 3 channels, same size */
+    otx_image match;  /* 3 channels, same size unless made anew */
     otx_image lab;    /* 3 channels, CIELAB D65 of the display-like picture:
                        * what seams are measured in, whatever matches */
     bool wrap_x;      /* the picture tiles left to right */
@@ -46,7 +46,8 @@ typedef enum otx_exemplar_wrap
 
 enum
 {
-    OTX_EXEMPLAR_MIN_SIDE = 8
+    OTX_EXEMPLAR_MIN_SIDE = 8,
+    OTX_EXEMPLARS_MAX = 4 /* that a mapping takes from */
 };
 
 /* A decoded file and what the user said about it. Zero is a fine default for
@@ -74,6 +75,13 @@ typedef struct otx_exemplar_input
  * than an image may be), NUMERIC (a value that is not finite), COLOUR. */
 otx_status otx_exemplar_build(
     otx_run *run, const otx_colour *colour, const otx_exemplar_input *input,
+    otx_exemplar *out);
+
+/* The same pictures to be compared at another size: `match` and `lab` are made
+ * anew, filtered, in run->arena; `linear` is borrowed. LIMIT for a size that an
+ * exemplar cannot have, MEMORY. */
+otx_status otx_exemplar_resize(
+    otx_run *run, const otx_exemplar *from, int32_t width, int32_t height,
     otx_exemplar *out);
 
 /* Arranges the texels of `from` anew, in run->arena: texel i of the result, of

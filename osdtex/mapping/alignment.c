@@ -1,6 +1,8 @@
 /* alignment.c -- how well a mapping lies along the field that it follows. */
 #include "mapping/alignment.h"
 
+#include "mapping/source.h"
+
 #include <stdlib.h>
 
 typedef struct weighed
@@ -143,7 +145,8 @@ otx_alignment_measure(
     if (!s.angles || !s.scales)
         return otx_fail_memory(run, "measure");
     for (int32_t f = 0; f < leaf->face_count; ++f)
-        if (!leaf->face_hole[f] && mapping->face_patch[f] >= 0)
+        if (!leaf->face_hole[f] && mapping->face_patch[f] >= 0 &&
+            otx_source_of(mapping, f) == 0)
             add_face(&s, f);
     sum_up(&s, out);
     otx_arena_release(run->scratch, mark);

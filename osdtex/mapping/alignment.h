@@ -14,8 +14,9 @@ typedef struct otx_alignment
     double scale_p01, scale_p50, scale_p99;
 } otx_alignment;
 
-/* Of a mapping with a guide. Triangles of the fan of each face are looked at;
- * those without area on either side are left out. MEMORY. */
+/* Of a mapping with a guide, on the faces that show the first exemplar.
+ * Triangles of the fan of each face are looked at; those without area on either
+ * side are left out. MEMORY. */
 otx_status otx_alignment_measure(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
     otx_alignment *out);

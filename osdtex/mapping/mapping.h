@@ -1,7 +1,8 @@
 /* mapping.h -- what every method returns: UVs for every leaf face.
  *
  * A face carries one fragment: its corners' UVs and the patch that they come
- * from. UVs are in units of the exemplar's size, v up, and may leave [0, 1]
+ * from; the patch says of which exemplar (mapping/source.h). UVs are in units
+ * of the exemplar's size, v up, and may leave [0, 1]
  * only along an axis in which the exemplar tiles. */
 #ifndef OTX_MAPPING_MAPPING_H
 #define OTX_MAPPING_MAPPING_H
@@ -30,14 +31,17 @@ typedef struct otx_cell_map
 typedef struct otx_mapping
 {
     const otx_surface *surface;
-    double scale; /* width of the exemplar in scene units */
+    double scale; /* width of the first exemplar in scene units */
     float *uvs;   /* [leaf corner_count * 2] */
     /* [leaf face_count], -1 only on holes. Numbered from 0 in the order in
      * which the patches were fitted. */
     int32_t *face_patch;
     int32_t patch_count;
-    const otx_guide *guide;      /* that it follows; NULL none */
-    const otx_cell_map *lattice; /* that it shows; NULL none */
+    int32_t exemplar_count;        /* 0 is 1 */
+    const uint8_t *patch_exemplar; /* [patch_count] which one each patch comes
+                                    * from; NULL: all from the first */
+    const otx_guide *guide;        /* that the first's patches follow; NULL */
+    const otx_cell_map *lattice;   /* that it shows; NULL none */
 } otx_mapping;
 
 #endif

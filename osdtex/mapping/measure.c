@@ -43,17 +43,25 @@ typedef struct laid_face
     otx_vec2 q[CORNERS_MAX];
 } laid_face;
 
+/* How the faces use one exemplar. */
+typedef struct use
+{
+    double cell; /* texels */
+    int32_t cells_x, cells_y;
+    double *cells; /* [cells_x * cells_y], scene units squared */
+} use;
+
 typedef struct survey
 {
     const otx_mapping *mapping;
-    const otx_exemplar *exemplar;
+    const otx_exemplar *exemplars;
+    int32_t exemplar_count;
     const otx_level *leaf;
     double density;
     series l2, ratio, log_area;
-    double cell; /* texels */
-    int32_t cells_x, cells_y;
-    double *usage;  /* [cells_x * cells_y], scene units squared */
+    use uses[OTX_EXEMPLARS_MAX];
     laid_face face; /* the one at hand */
+    int32_t source; /* the exemplar that it shows */
 } survey;
 
 static int
@@ -176,7 +184,7 @@ lay_face(const survey *s, int32_t face, laid_face *out)
                  : (otx_vec2){0.0, 0.0};
         out->q[k] = otx_vec2_scale(
             1.0 / s->density,
-            otx_seam_texel(s->mapping, s->exemplar, first + k));
+            otx_seam_texel(s->mapping, &s->exemplars[s->source], first + k));
     }
 }
 
@@ -267,13 +275,14 @@ cell_at(double texel, int32_t size, bool wrap, double cell, int32_t count)
 static void
 use_point(survey *s, otx_vec2 texel, double area)
 {
-    const otx_exemplar *exemplar = s->exemplar;
+    const otx_exemplar *exemplar = &s->exemplars[s->source];
+    use *u = &s->uses[s->source];
     const int32_t x = cell_at(
-        texel.x, exemplar->match.width, exemplar->wrap_x, s->cell, s->cells_x);
+        texel.x, exemplar->match.width, exemplar->wrap_x, u->cell, u->cells_x);
     const int32_t y = cell_at(
-        texel.y, exemplar->match.height, exemplar->wrap_y, s->cell, s->cells_y);
+        texel.y, exemplar->match.height, exemplar->wrap_y, u->cell, u->cells_y);
 
-    s->usage[(size_t)y * (size_t)s->cells_x + (size_t)x] += area;
+    u->cells[(size_t)y * (size_t)u->cells_x + (size_t)x] += area;
 }
 
 /* Spreads the area of a triangle over the cells that its UVs lie in, as
@@ -283,7 +292,7 @@ use_triangle(survey *s, const otx_vec2 q[3], double area)
 {
     const otx_vec2 u = otx_vec2_sub(q[1], q[0]), v = otx_vec2_sub(q[2], q[0]);
     const double side = fmax(otx_vec2_length(u), otx_vec2_length(v));
-    const double wanted = ceil(2.0 * side / s->cell);
+    const double wanted = ceil(2.0 * side / s->uses[s->source].cell);
     const int32_t n =
         wanted < PIECES_MAX ? (wanted > 1.0 ? (int32_t)wanted : 1) : PIECES_MAX;
     const double piece = area / ((double)n * n);
@@ -319,7 +328,7 @@ use_face(survey *s, const laid_face *face)
 static double
 overhang(const survey *s, const laid_face *face)
 {
-    const otx_exemplar *exemplar = s->exemplar;
+    const otx_exemplar *exemplar = &s->exemplars[s->source];
     double most = 0.0;
 
     for (int32_t k = 0; k < face->size; ++k)
@@ -340,6 +349,7 @@ survey_face(survey *s, int32_t index, otx_measure *out)
     laid_face *face = &s->face;
     double larger, smaller;
 
+    s->source = otx_source_of(s->mapping, index);
     lay_face(s, index, face);
 
     const double area = polygon_area(face->p, face->size);
@@ -350,6 +360,8 @@ survey_face(survey *s, int32_t index, otx_measure *out)
         !otx_limit_face_is_flat(s->leaf, s->mapping->surface->points, index);
 
     out->area += area * s->density * s->density;
+    out->shares[s->source].area += area * s->density * s->density;
+    ++out->shares[s->source].faces;
     out->flips += flipped;
     out->folds += uv_area > 0.0 && has_fold(face);
     out->outside += beyond > OTX_SEAM_TOLERANCE;
@@ -367,32 +379,54 @@ survey_face(survey *s, int32_t index, otx_measure *out)
 
 /* exp of the entropy of how the surface uses the cells: 1 all alike. */
 static double
-coverage(const survey *s)
+coverage(const use *u)
 {
-    const size_t count = (size_t)s->cells_x * (size_t)s->cells_y;
+    const size_t count = (size_t)u->cells_x * (size_t)u->cells_y;
     double total = 0.0, entropy = 0.0;
 
     for (size_t i = 0; i < count; ++i)
-        total += s->usage[i];
+        total += u->cells[i];
     for (size_t i = 0; i < count; ++i)
-        if (s->usage[i] > 0.0)
-            entropy -= s->usage[i] / total * log(s->usage[i] / total);
+        if (u->cells[i] > 0.0)
+            entropy -= u->cells[i] / total * log(u->cells[i] / total);
     return total > 0.0 ? exp(entropy) / (double)count : 0.0;
+}
+
+static void
+measure_coverage(const survey *s, otx_measure *out)
+{
+    double sum = 0.0;
+
+    for (int32_t k = 0; k < s->exemplar_count; ++k)
+    {
+        out->shares[k].coverage = coverage(&s->uses[k]);
+        sum += out->shares[k].coverage * out->shares[k].area;
+    }
+    out->coverage = s->exemplar_count == 1 ? out->shares[0].coverage
+                    : out->area > 0.0      ? sum / out->area
+                                           : 0.0;
+}
+
+static bool
+allocate_use(otx_run *run, const otx_image *image, use *u)
+{
+    const double width = image->width, height = image->height;
+
+    u->cell = fmax(width, height) / CELLS;
+    u->cells_x = (int32_t)ceil(width / u->cell);
+    u->cells_y = (int32_t)ceil(height / u->cell);
+    u->cells = OTX_ZNEW(run->scratch, double, u->cells_x *(int64_t)u->cells_y);
+    return u->cells != NULL;
 }
 
 static bool
 allocate_survey(otx_run *run, survey *s)
 {
-    const double width = s->exemplar->match.width;
-    const double height = s->exemplar->match.height;
     series *all[] = {&s->l2, &s->ratio, &s->log_area};
 
-    s->cell = fmax(width, height) / CELLS;
-    s->cells_x = (int32_t)ceil(width / s->cell);
-    s->cells_y = (int32_t)ceil(height / s->cell);
-    s->usage = OTX_ZNEW(run->scratch, double, s->cells_x *(int64_t)s->cells_y);
-    if (!s->usage)
-        return false;
+    for (int32_t k = 0; k < s->exemplar_count; ++k)
+        if (!allocate_use(run, &s->exemplars[k].match, &s->uses[k]))
+            return false;
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
     {
         all[i]->items = OTX_NEW(run->scratch, weighted, s->leaf->face_count);
@@ -433,40 +467,46 @@ measure_faces(otx_run *run, survey *s, otx_measure *out)
     out->stretch_l2_p95 = series_quantile(&s->l2, 0.95);
     out->stretch_ratio_mean = series_mean(&s->ratio);
     out->stretch_ratio_p95 = series_quantile(&s->ratio, 0.95);
-    out->coverage = coverage(s);
+    measure_coverage(s, out);
     return OSDTEX_OK;
 }
 
 static void
-sum_seams(const otx_seam_list *list, otx_measure *out)
+sum_seams(const survey *s, const otx_seam_list *list, otx_measure *out)
 {
+    const double length = list->total_length - list->transition_length;
     double energy = 0.0, visible = 0.0;
 
     for (int32_t i = 0; i < list->edge_count; ++i)
     {
         const int32_t first = list->sample_first[i];
         const int32_t end = list->sample_first[i + 1];
+        const int32_t face = s->leaf->edge_faces[2 * (size_t)list->edges[i]];
+        const double step =
+            s->exemplars[otx_source_of(s->mapping, face)].lab_step;
         double sum = 0.0;
 
+        if (list->transition[i])
+            continue;
         for (int32_t k = first; k < end; ++k)
             sum += list->samples[k];
         sum /= end - first;
         energy += list->lengths[i] * sum;
-        visible += sum > out->lab_step ? list->lengths[i] : 0.0;
+        visible += sum > step ? list->lengths[i] : 0.0;
     }
-    out->seam_length = list->total_length;
+    out->seam_length = length;
+    out->transition_length = list->transition_length;
     if (out->area > 0.0)
     {
         out->seam_energy = energy / out->area;
         /* Lines of length L per area A are met 2 L / (pi A) times by a straight
          * line of unit length [Buffon]. */
-        out->seams_per_100 =
-            100.0 * 2.0 / OTX_PI * list->total_length / out->area;
+        out->seams_per_100 = 100.0 * 2.0 / OTX_PI * length / out->area;
     }
-    if (list->total_length > 0.0)
-        out->seam_visible_share = visible / list->total_length;
+    if (length > 0.0)
+        out->seam_visible_share = visible / length;
     if (list->interior_length > 0.0)
-        out->seam_share = list->total_length / list->interior_length;
+        out->seam_share = length / list->interior_length;
 }
 
 static double
@@ -475,22 +515,40 @@ ratio_or_zero(double value, double unit)
     return unit > 0.0 ? value / unit : 0.0;
 }
 
+/* Samples of the seams, or of the transitions; the sum of their squares. */
+static double
+take_samples(const otx_seam_list *list, bool transition, series *out)
+{
+    double squares = 0.0;
+
+    for (int32_t i = 0; i < list->edge_count; ++i)
+        for (int32_t k = list->sample_first[i];
+             k < list->sample_first[i + 1] && list->transition[i] == transition;
+             ++k)
+        {
+            squares += (double)list->samples[k] * list->samples[k];
+            series_add(out, list->samples[k], 1.0);
+        }
+    return squares;
+}
+
 static otx_status
-measure_seams(otx_run *run, const otx_seam_list *list, otx_measure *out)
+measure_seams(
+    otx_run *run, const survey *faces, const otx_seam_list *list,
+    otx_measure *out)
 {
     const int32_t count = list->sample_first[list->edge_count];
     series s = {.items = OTX_NEW(run->scratch, weighted, count)};
-    double squares = 0.0;
+    double squares;
 
     if (!s.items)
         return otx_fail_memory(run, stage);
-    for (int32_t i = 0; i < count; ++i)
-    {
-        squares += (double)list->samples[i] * list->samples[i];
-        series_add(&s, list->samples[i], 1.0);
-    }
-    sum_seams(list, out);
-    out->seam_rms = count > 0 ? sqrt(squares / count) : 0.0;
+    sum_seams(faces, list, out);
+    squares = take_samples(list, true, &s);
+    out->transition_rms = s.count > 0 ? sqrt(squares / s.count) : 0.0;
+    s.count = 0;
+    squares = take_samples(list, false, &s);
+    out->seam_rms = s.count > 0 ? sqrt(squares / s.count) : 0.0;
     out->seam_p50 = series_quantile(&s, 0.5);
     out->seam_p95 = series_quantile(&s, 0.95);
     out->seam_rms_sigma = ratio_or_zero(out->seam_rms, out->lab_sigma);
@@ -507,7 +565,7 @@ measure_windows(
     otx_window_figures figures;
 
     OTX_TRY(otx_window_measure(
-        run, s->mapping, s->exemplar, seams, count, &figures));
+        run, s->mapping, s->exemplars, seams, count, &figures));
     out->windows = figures.seam_count;
     out->window_seam_p50 = figures.seam_p50;
     out->window_seam_p90 = figures.seam_p90;
@@ -525,8 +583,8 @@ measure_all(
 
     OTX_TRY(measure_faces(run, s, out));
     OTX_TRY(otx_progress(run, stage, 0.2));
-    OTX_TRY(otx_seam_collect(run, s->mapping, s->exemplar, &seams));
-    OTX_TRY(measure_seams(run, &seams, out));
+    OTX_TRY(otx_seam_collect(run, s->mapping, s->exemplars, &seams));
+    OTX_TRY(measure_seams(run, s, &seams, out));
     OTX_TRY(otx_progress(run, stage, 0.5));
     if (options->window_count > 0)
         OTX_TRY(measure_windows(run, s, &seams, options->window_count, out));
@@ -535,22 +593,23 @@ measure_all(
 
 otx_status
 otx_measure_run(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_measure_options *options, otx_measure *out)
 {
     const otx_measure_options defaults = otx_measure_options_default();
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     survey s = {
         .mapping = mapping,
-        .exemplar = exemplar,
+        .exemplars = exemplars,
+        .exemplar_count = otx_source_count(mapping),
         .leaf = otx_surface_leaf(mapping->surface),
-        .density = otx_seam_density(mapping, exemplar),
+        .density = otx_seam_density(mapping, exemplars),
     };
 
     *out = (otx_measure){
         .density = s.density,
-        .lab_sigma = exemplar->lab_sigma,
-        .lab_step = exemplar->lab_step,
+        .lab_sigma = exemplars->lab_sigma,
+        .lab_step = exemplars->lab_step,
     };
 
     const otx_status status =

@@ -23,6 +23,14 @@ otx_measure_options_default(void)
     return (otx_measure_options){.window_count = 0};
 }
 
+/* What a mapping of several exemplars makes of one. */
+typedef struct otx_measure_share
+{
+    int32_t faces;
+    double area;     /* square texels */
+    double coverage; /* as below */
+} otx_measure_share;
+
 typedef struct otx_measure
 {
     double density;     /* texels per scene unit */
@@ -52,7 +60,13 @@ typedef struct otx_measure
     double stretch_l2_p95;
     double stretch_ratio_mean; /* sigma1 / sigma2, 1 conformal */
     double stretch_ratio_p95;
-    double coverage; /* exp(entropy) of exemplar use / cells */
+    double coverage; /* exp(entropy) of exemplar use / cells; of several their
+                      * mean by area */
+    otx_measure_share shares[OTX_EXEMPLARS_MAX];
+
+    /* Where exemplars meet, which is in none of the figures for seams. */
+    double transition_length; /* texels */
+    double transition_rms;    /* Delta E */
 
     int32_t windows;        /* looked up at seams; 0: figures are 0 */
     double window_seam_p50; /* distance to the exemplar / lab_sigma */
@@ -63,11 +77,13 @@ typedef struct otx_measure
 
 /* Measures a finished mapping; the same bits for any number of threads.
  *
- *   options   NULL: defaults
+ *   exemplars  of several, what is relative to one is relative to the first,
+ *              but windows and visible seams to those that they show
+ *   options    NULL: defaults
  *
  * MEMORY, CANCELLED. A mapping without seams has seam figures of 0. */
 otx_status otx_measure_run(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_measure_options *options, otx_measure *out);
 
 #endif

@@ -169,9 +169,9 @@ otx_seam_sample(
 }
 
 double
-otx_seam_density(const otx_mapping *mapping, const otx_exemplar *exemplar)
+otx_seam_density(const otx_mapping *mapping, const otx_exemplar *exemplars)
 {
-    return exemplar->match.width / mapping->scale;
+    return exemplars->match.width / mapping->scale;
 }
 
 bool
@@ -204,27 +204,32 @@ otx_seam_texel(
 typedef struct search
 {
     const otx_mapping *mapping;
-    const otx_exemplar *exemplar;
+    const otx_exemplar *exemplars;
     const otx_level *leaf;
     const uint8_t *covered; /* [face_count] */
     double density;
     int32_t *edges;
+    uint8_t *transition;
     double *lengths;
     int32_t *sample_first;
     float *samples;
 } search;
 
+/*   from  the exemplars of the two sides */
 static void
-edge_sides(const search *s, int32_t edge, otx_vec2 sides[2][2])
+edge_sides(
+    const search *s, int32_t edge, otx_vec2 sides[2][2],
+    const otx_exemplar *from[2])
 {
     for (int f = 0; f < 2; ++f)
     {
+        const int32_t face = s->leaf->edge_faces[2 * (size_t)edge + f];
         int32_t corners[2];
 
-        otx_seam_corners(
-            s->leaf, edge, s->leaf->edge_faces[2 * (size_t)edge + f], corners);
+        from[f] = &s->exemplars[otx_source_of(s->mapping, face)];
+        otx_seam_corners(s->leaf, edge, face, corners);
         for (int k = 0; k < 2; ++k)
-            sides[f][k] = otx_seam_texel(s->mapping, s->exemplar, corners[k]);
+            sides[f][k] = otx_seam_texel(s->mapping, from[f], corners[k]);
     }
 }
 
@@ -238,6 +243,7 @@ find_seams(otx_run *run, search *s, otx_seam_list *out)
     for (int32_t e = 0; e < s->leaf->edge_count; ++e)
     {
         const int32_t *faces = s->leaf->edge_faces + 2 * (size_t)e;
+        const otx_exemplar *from[2];
         otx_vec2 sides[2][2];
 
         if (faces[1] < 0 || !s->covered[faces[0]] || !s->covered[faces[1]])
@@ -247,8 +253,9 @@ find_seams(otx_run *run, search *s, otx_seam_list *out)
             s->density * otx_seam_edge_length(s->mapping->surface, e);
 
         out->interior_length += length;
-        edge_sides(s, e, sides);
-        if (otx_seam_continuous(s->exemplar, sides[0], sides[1]))
+        edge_sides(s, e, sides, from);
+        if (from[0] == from[1] &&
+            otx_seam_continuous(from[0], sides[0], sides[1]))
             continue;
         samples += otx_seam_sample_count(length);
         if (samples > INT32_MAX)
@@ -256,6 +263,8 @@ find_seams(otx_run *run, search *s, otx_seam_list *out)
                 run, OSDTEX_ERROR_LIMIT, "measure", OTX_NOWHERE,
                 "the seams have more than 2^31 texels; choose a larger scale");
         out->total_length += length;
+        out->transition_length += from[0] != from[1] ? length : 0.0;
+        s->transition[out->edge_count] = from[0] != from[1];
         s->edges[out->edge_count] = e;
         s->lengths[out->edge_count] = length;
         s->sample_first[++out->edge_count] = (int32_t)samples;
@@ -270,15 +279,16 @@ sample_seam(void *context, int64_t index, otx_worker *worker)
     const int32_t first = s->sample_first[index];
     const int32_t count = s->sample_first[index + 1] - first;
     float *colors = OTX_NEW(worker->scratch, float, 6 * (int64_t)count);
+    const otx_exemplar *from[2];
     otx_vec2 sides[2][2];
 
     if (!colors)
         return OSDTEX_ERROR_MEMORY;
-    edge_sides(s, s->edges[index], sides);
+    edge_sides(s, s->edges[index], sides, from);
     for (int f = 0; f < 2; ++f)
         otx_seam_sample(
-            &s->exemplar->lab, s->exemplar->wrap_x, s->exemplar->wrap_y,
-            sides[f], 0.0, count, colors + 3 * (size_t)(f * count));
+            &from[f]->lab, from[f]->wrap_x, from[f]->wrap_y, sides[f], 0.0,
+            count, colors + 3 * (size_t)(f * count));
     for (int32_t i = 0; i < count; ++i)
     {
         const float *a = colors + 3 * (size_t)i;
@@ -310,10 +320,12 @@ prepare(otx_run *run, search *s, otx_seam_list *out)
     uint8_t *covered = OTX_NEW(run->scratch, uint8_t, s->leaf->face_count);
 
     out->edges = s->edges = OTX_NEW(run->arena, int32_t, edge_count);
+    out->transition = s->transition = OTX_NEW(run->arena, uint8_t, edge_count);
     out->lengths = s->lengths = OTX_NEW(run->arena, double, edge_count);
     out->sample_first = s->sample_first =
         OTX_NEW(run->arena, int32_t, edge_count + 1);
-    if (!covered || !s->edges || !s->lengths || !s->sample_first)
+    if (!covered || !s->edges || !s->transition || !s->lengths ||
+        !s->sample_first)
         return false;
     for (int32_t f = 0; f < s->leaf->face_count; ++f)
         covered[f] = otx_seam_covered(s->mapping, f);
@@ -323,15 +335,15 @@ prepare(otx_run *run, search *s, otx_seam_list *out)
 
 otx_status
 otx_seam_collect(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     otx_seam_list *out)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     search s = {
         .mapping = mapping,
-        .exemplar = exemplar,
+        .exemplars = exemplars,
         .leaf = otx_surface_leaf(mapping->surface),
-        .density = otx_seam_density(mapping, exemplar),
+        .density = otx_seam_density(mapping, exemplars),
     };
 
     *out = (otx_seam_list){0};

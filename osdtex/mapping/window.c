@@ -34,6 +34,7 @@ typedef struct hinge
 typedef struct window
 {
     int32_t filled;
+    int32_t source; /* the exemplar that its first face shows */
     bool crosses_seam;
     uint8_t valid[SIDE * SIDE];
     float colors[SIDE * SIDE][3];
@@ -55,14 +56,14 @@ typedef struct pose
 typedef struct lookup
 {
     const otx_mapping *mapping;
-    const otx_exemplar *exemplar;
+    const otx_exemplar *exemplars;
     const otx_level *leaf;
     double density;
-    otx_image coarse; /* a quarter of the exemplar's Lab, PAD texels of its
-                       * continuation around it */
-    const uint8_t *seam_edge; /* [edge_count] */
-    const int32_t *seeds;     /* edges at whose middles windows are */
-    double *distances;        /* RMS, Lab */
+    otx_image coarse[OTX_EXEMPLARS_MAX]; /* a quarter of each one's Lab, PAD
+                                          * texels of its continuation around */
+    const uint8_t *seam_edge;            /* [edge_count] */
+    const int32_t *seeds; /* edges at whose middles windows are */
+    double *distances;    /* RMS, of sigma */
 } lookup;
 
 static otx_vec3
@@ -126,6 +127,7 @@ static void
 fill_triangle(
     const lookup *l, window *w, const otx_vec2 p[3], const otx_vec2 uv[3])
 {
+    const otx_exemplar *from = &l->exemplars[w->source];
     const otx_vec2 e1 = otx_vec2_sub(p[1], p[0]);
     const otx_vec2 e2 = otx_vec2_sub(p[2], p[0]);
     const double area2 = otx_vec2_cross(e1, e2);
@@ -145,7 +147,7 @@ fill_triangle(
         w->valid[i] = 1;
         ++w->filled;
         otx_image_sample(
-            &l->exemplar->lab, l->exemplar->wrap_x, l->exemplar->wrap_y,
+            &from->lab, from->wrap_x, from->wrap_y,
             otx_vec2_add(
                 otx_vec2_scale(1.0 - s - t, uv[0]),
                 otx_vec2_add(
@@ -159,15 +161,16 @@ fill_face(
     const lookup *l, window *w, int32_t face, int32_t size,
     const otx_vec2 *corners)
 {
+    const otx_exemplar *from = &l->exemplars[w->source];
     const int32_t first = l->leaf->face_first[face];
 
     for (int32_t k = 1; k + 1 < size; ++k)
     {
         const otx_vec2 p[3] = {corners[0], corners[k], corners[k + 1]};
         const otx_vec2 uv[3] = {
-            otx_seam_texel(l->mapping, l->exemplar, first),
-            otx_seam_texel(l->mapping, l->exemplar, first + k),
-            otx_seam_texel(l->mapping, l->exemplar, first + k + 1)};
+            otx_seam_texel(l->mapping, from, first),
+            otx_seam_texel(l->mapping, from, first + k),
+            otx_seam_texel(l->mapping, from, first + k + 1)};
 
         fill_triangle(l, w, p, uv);
     }
@@ -243,6 +246,7 @@ cut_window(const lookup *l, int32_t edge, window *w)
         0.5 * l->density * otx_seam_edge_length(l->mapping->surface, edge);
 
     memset(w, 0, offsetof(window, hinges));
+    w->source = otx_source_of(l->mapping, faces[0]);
     for (int k = 0; k < 2 && faces[k] >= 0; ++k)
         w->hinges[w->hinge_count++] =
             (hinge){faces[k], edge, {{-half, 0.0}, {half, 0.0}}};
@@ -252,7 +256,8 @@ cut_window(const lookup *l, int32_t edge, window *w)
         const int32_t size = otx_level_face_size(l->leaf, h->face);
         otx_vec2 corners[CORNERS_MAX];
 
-        if (size > CORNERS_MAX)
+        if (size > CORNERS_MAX ||
+            otx_source_of(l->mapping, h->face) != w->source)
             return false;
         unfold(l, h, size, corners);
         fill_face(l, w, h->face, size, corners);
@@ -307,19 +312,20 @@ fold_index(int32_t i, int32_t size, bool wrap)
 
 /* Adds the border to a coarse picture, so that the search need not wrap. */
 static otx_status
-pad_coarse(otx_run *run, lookup *l, const otx_image *inner)
+pad_coarse(
+    otx_run *run, const otx_exemplar *from, const otx_image *inner,
+    otx_image *out)
 {
     OTX_TRY(otx_image_create(
         run, run->scratch, inner->width + 2 * PAD, inner->height + 2 * PAD, 3,
-        &l->coarse));
-    for (int32_t y = 0; y < l->coarse.height; ++y)
-        for (int32_t x = 0; x < l->coarse.width; ++x)
+        out));
+    for (int32_t y = 0; y < out->height; ++y)
+        for (int32_t x = 0; x < out->width; ++x)
             memcpy(
-                otx_image_at(&l->coarse, x, y),
+                otx_image_at(out, x, y),
                 otx_image_at(
-                    inner,
-                    fold_index(x - PAD, inner->width, l->exemplar->wrap_x),
-                    fold_index(y - PAD, inner->height, l->exemplar->wrap_y)),
+                    inner, fold_index(x - PAD, inner->width, from->wrap_x),
+                    fold_index(y - PAD, inner->height, from->wrap_y)),
                 3 * sizeof(float));
     return OSDTEX_OK;
 }
@@ -346,16 +352,16 @@ static pose
 search_angle(const lookup *l, const window *w, double angle)
 {
     sample samples[COARSE * COARSE];
-    const int32_t count = turn_window(w, &l->coarse, angle, samples);
+    const otx_image *coarse = &l->coarse[w->source];
+    const int32_t count = turn_window(w, coarse, angle, samples);
     double least = HUGE_VAL;
     int32_t at_x = 0, at_y = 0;
 
-    for (int32_t y = 0; y < l->coarse.height - 2 * PAD; ++y)
-        for (int32_t x = 0; x < l->coarse.width - 2 * PAD; ++x)
+    for (int32_t y = 0; y < coarse->height - 2 * PAD; ++y)
+        for (int32_t x = 0; x < coarse->width - 2 * PAD; ++x)
         {
             const double error = coarse_error(
-                otx_image_at(&l->coarse, x + PAD, y + PAD), samples, count,
-                least);
+                otx_image_at(coarse, x + PAD, y + PAD), samples, count, least);
 
             if (error < least)
             {
@@ -374,6 +380,7 @@ search_angle(const lookup *l, const window *w, double angle)
 static double
 pose_error(const lookup *l, const window *w, pose at, int32_t stride)
 {
+    const otx_exemplar *from = &l->exemplars[w->source];
     const otx_vec2 turn = otx_vec2_polar(at.angle);
     double sum = 0.0;
     int32_t count = 0;
@@ -381,14 +388,14 @@ pose_error(const lookup *l, const window *w, pose at, int32_t stride)
     for (int32_t y = 0; y < SIDE; y += stride)
         for (int32_t x = 0; x < SIDE; x += stride)
         {
-            const otx_vec2 from = {x + 0.5 - SIDE / 2, y + 0.5 - SIDE / 2};
+            const otx_vec2 off = {x + 0.5 - SIDE / 2, y + 0.5 - SIDE / 2};
             float color[3];
 
             if (!w->valid[y * SIDE + x])
                 continue;
             otx_image_sample(
-                &l->exemplar->lab, l->exemplar->wrap_x, l->exemplar->wrap_y,
-                otx_vec2_add(at.centre, otx_vec2_mul(turn, from)), color);
+                &from->lab, from->wrap_x, from->wrap_y,
+                otx_vec2_add(at.centre, otx_vec2_mul(turn, off)), color);
             ++count;
             for (int c = 0; c < 3; ++c)
             {
@@ -454,7 +461,7 @@ look_up(void *context, int64_t index, otx_worker *worker)
     const lookup *l = context;
     window *w = OTX_NEW(worker->scratch, window, 1);
     pose poses[ANGLES];
-    double least = HUGE_VAL;
+    double least = HUGE_VAL, sigma;
 
     if (!w)
         return OSDTEX_ERROR_MEMORY;
@@ -464,7 +471,8 @@ look_up(void *context, int64_t index, otx_worker *worker)
     qsort(poses, ANGLES, sizeof *poses, compare_poses);
     for (int k = 0; k < KEPT; ++k)
         least = fmin(least, refine(l, w, poses[k]).error);
-    l->distances[index] = sqrt(least);
+    sigma = l->exemplars[w->source].lab_sigma;
+    l->distances[index] = sigma > 0.0 ? sqrt(least) / sigma : 0.0;
     return OSDTEX_OK;
 }
 
@@ -517,25 +525,38 @@ compare_doubles(const void *a, const void *b)
     return (*p > *q) - (*p < *q);
 }
 
-/* Looks the seeds up; p50 and p90 in units of sigma. */
+/* Looks the seeds up; p50 and p90. */
 static otx_status
 look_up_all(
     otx_run *run, lookup *l, const int32_t *seeds, int32_t count,
     double quantiles[2])
 {
-    const double sigma = l->exemplar->lab_sigma;
-
     quantiles[0] = quantiles[1] = 0.0;
     l->seeds = seeds;
     l->distances = OTX_NEW(run->scratch, double, count);
     if (!l->distances ||
         otx_pool_for(run->pool, count, look_up, l) != OSDTEX_OK)
         return otx_fail_memory(run, "measure");
-    if (count == 0 || !(sigma > 0.0))
+    if (count == 0)
         return OSDTEX_OK;
     qsort(l->distances, (size_t)count, sizeof(double), compare_doubles);
-    quantiles[0] = l->distances[(count - 1) / 2] / sigma;
-    quantiles[1] = l->distances[(9 * (int64_t)count + 9) / 10 - 1] / sigma;
+    quantiles[0] = l->distances[(count - 1) / 2];
+    quantiles[1] = l->distances[(9 * (int64_t)count + 9) / 10 - 1];
+    return OSDTEX_OK;
+}
+
+static otx_status
+make_coarse(otx_run *run, lookup *l)
+{
+    for (int32_t k = 0; k < otx_source_count(l->mapping); ++k)
+    {
+        const otx_exemplar *from = &l->exemplars[k];
+        otx_image half, quarter;
+
+        OTX_TRY(otx_image_halve(run, run->scratch, &from->lab, &half));
+        OTX_TRY(otx_image_halve(run, run->scratch, &half, &quarter));
+        OTX_TRY(pad_coarse(run, from, &quarter, &l->coarse[k]));
+    }
     return OSDTEX_OK;
 }
 
@@ -548,16 +569,13 @@ measure(
     int32_t *seeds = OTX_NEW(run->scratch, int32_t, count);
     window *w = OTX_NEW(run->scratch, window, 1);
     double seam[2], interior[2];
-    otx_image half, quarter;
 
     if (!seam_edge || !seeds || !w)
         return otx_fail_memory(run, "measure");
     for (int32_t i = 0; i < seams->edge_count; ++i)
         seam_edge[seams->edges[i]] = 1;
     l->seam_edge = seam_edge;
-    OTX_TRY(otx_image_halve(run, run->scratch, &l->exemplar->lab, &half));
-    OTX_TRY(otx_image_halve(run, run->scratch, &half, &quarter));
-    OTX_TRY(pad_coarse(run, l, &quarter));
+    OTX_TRY(make_coarse(run, l));
     out->seam_count = seed_seams(l, w, seams, count, seeds);
     OTX_TRY(look_up_all(run, l, seeds, out->seam_count, seam));
     OTX_TRY(otx_progress(run, "measure", 0.75));
@@ -572,15 +590,15 @@ measure(
 
 otx_status
 otx_window_measure(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_seam_list *seams, int32_t count, otx_window_figures *out)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     lookup l = {
         .mapping = mapping,
-        .exemplar = exemplar,
+        .exemplars = exemplars,
         .leaf = otx_surface_leaf(mapping->surface),
-        .density = otx_seam_density(mapping, exemplar),
+        .density = otx_seam_density(mapping, exemplars),
     };
 
     *out = (otx_window_figures){0};

@@ -20,11 +20,12 @@ typedef struct otx_window_figures
 } otx_window_figures;
 
 /* Looks up at most `count` windows at seams and `count` away from them, spread
- * evenly over the surface. Figures of a kind without windows are 0.
+ * evenly over the surface, each in the exemplar that it shows; those that show
+ * two are left out. Figures of a kind without windows are 0.
  *
  *   seams   of the same mapping */
 otx_status otx_window_measure(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_seam_list *seams, int32_t count, otx_window_figures *out);
 
 #endif

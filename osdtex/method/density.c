@@ -42,11 +42,11 @@ refine_values(const otx_level *level, double *values)
     }
 }
 
-/* Natural logarithms, [leaf vert_count] in run->scratch. */
-static otx_status
-solve(
+otx_status
+otx_density_spread(
     otx_run *run, const otx_surface *surface,
-    const otx_constraint_set *constraints, double **out)
+    const otx_constraint_set *constraints, otx_constraint_kind kind,
+    double **out)
 {
     const int32_t last = surface->level_count - 1;
     double *values =
@@ -59,7 +59,8 @@ solve(
     while (level > 0 && surface->levels[level].face_count > FACES_MAX)
         --level;
     OTX_TRY(otx_connection_build(run, surface, level, connection));
-    OTX_TRY(otx_constraint_scale(run, constraints, connection, values));
+    OTX_TRY(otx_constraint_interpolate(
+        run, constraints, connection, kind, NULL, values));
     for (; level < last; ++level)
         refine_values(&surface->levels[level], values);
     *out = values;
@@ -83,7 +84,8 @@ otx_density_apply(
     density = OTX_NEW(run->arena, float, count);
     if (!scaled || !density)
         return otx_fail_memory(run, "field");
-    OTX_TRY(solve(run, surface, constraints, &values));
+    OTX_TRY(otx_density_spread(
+        run, surface, constraints, OTX_CONSTRAINT_SCALE, &values));
     for (int32_t v = 0; v < count; ++v)
         density[v] = (float)exp(values[v]);
     *scaled = *surface;

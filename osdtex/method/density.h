@@ -12,4 +12,16 @@ otx_status otx_density_apply(
     otx_run *run, const otx_surface *surface,
     const otx_constraint_set *constraints, const otx_surface **out);
 
+/* What constraints ask of a scalar field, at the leaf vertices: harmonic
+ * between them on a level of moderate size, by means of edges and faces from
+ * there.
+ *
+ *   out  [leaf vert_count] in run->scratch
+ *
+ * As above. */
+otx_status otx_density_spread(
+    otx_run *run, const otx_surface *surface,
+    const otx_constraint_set *constraints, otx_constraint_kind kind,
+    double **out);
+
 #endif

@@ -92,6 +92,12 @@ otx_method_map(
 
     *stats = (otx_map_stats){0};
     OTX_TRY(check(run, surface, request));
+    if (request->demand && !method->mixes)
+        return otx_fail(
+            run, OSDTEX_ERROR_SUPPORT, "map", OTX_NOWHERE,
+            "the method '%s' takes one exemplar; several are for the method "
+            "'%s'",
+            method->name, otx_method_at(0)->name);
     otx_map_stats_stage(stats, "prepare");
     OTX_TRY(method->map(run, surface, exemplar, request, settings, out, stats));
     otx_map_stats_stage(stats, NULL);

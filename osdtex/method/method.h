@@ -35,6 +35,8 @@ typedef struct otx_map_stats
     double fit_error_mean;              /* of accepted fits, same unit */
     double cut_before, cut_after;       /* seam energy; 0 when not cut */
     double relax_before, relax_after;
+    /* What each exemplar was taken for; NULL where it was not looked at. */
+    const char *classes[OTX_EXEMPLARS_MAX];
     /* Of periodic coordinates; lattice_faces 0: the method has none. */
     int32_t lattice_faces;  /* that were solved on */
     int32_t singular_faces; /* of them that hold a dislocation */
@@ -60,6 +62,10 @@ typedef struct otx_map_request
     const otx_analysis *analysis;
     const otx_constraint_set *constraints; /* on fields; NULL none */
     const otx_guide *guide; /* that patches follow; NULL: the method's choice */
+    /* Several exemplars: how many, and which each leaf face is to show; NULL:
+     * the first throughout. Methods are then given them as an array. */
+    int32_t exemplar_count;
+    const uint8_t *demand; /* [leaf face_count] */
 } otx_map_request;
 
 /* What is textured before a method begins. */
@@ -80,6 +86,7 @@ typedef struct otx_method
     const otx_option *options;
     int32_t option_count;
     size_t settings_bytes;
+    bool mixes; /* several exemplars */
     /* Replaces automatic settings by what they come to for an exemplar; they
      * stay as they are when called again. NULL: none are. */
     void (*resolve)(void *settings, const otx_exemplar *exemplar);

@@ -486,7 +486,7 @@ cut_labels(state *s, int32_t *face_patch, otx_cut_stats *stats)
 
 otx_status
 otx_cut_run(
-    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplars,
     const otx_offer *offers, int32_t offer_count,
     const otx_cut_options *options, int32_t *face_patch, otx_cut_stats *out)
 {
@@ -499,7 +499,7 @@ otx_cut_run(
     otx_cut_stats stats = {0};
     state s = {
         .run = run,
-        .cost = otx_cut_cost_create(surface, exemplar, offers, options),
+        .cost = otx_cut_cost_create(surface, exemplars, offers, options),
         .leaf = otx_surface_leaf(surface),
         .offer_count = offer_count,
     };

@@ -26,6 +26,7 @@ typedef struct otx_offer
     const int32_t *first; /* [face_count + 1] */
     const float *cost;    /* [face_count], >= 0, units of colour difference:
                            * distortion and the like; NULL none */
+    int32_t exemplar;     /* of the exemplars, that it shows */
 } otx_offer;
 
 typedef struct otx_cut_options
@@ -67,6 +68,7 @@ typedef struct otx_cut_stats
 
 /* Re-assigns leaf faces between the offers.
  *
+ *   exemplars   those that the offers name; the first gives the unit
  *   offers      [offer_count], label p is offers[p]
  *   face_patch  [leaf face_count], in and out: labels; each labelled face must
  *               be among the faces that its patch offers. -1 on holes, and on
@@ -77,7 +79,7 @@ typedef struct otx_cut_stats
  * breaks the rules above; CANCELLED, MEMORY. The result does not depend on the
  * number of threads. */
 otx_status otx_cut_run(
-    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplars,
     const otx_offer *offers, int32_t offer_count,
     const otx_cut_options *options, int32_t *face_patch, otx_cut_stats *out);
 

@@ -18,17 +18,16 @@ static const int64_t cost_max = (int64_t)1 << 36;
 
 otx_cut_cost
 otx_cut_cost_create(
-    const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_surface *surface, const otx_exemplar *exemplars,
     const otx_offer *offers, const otx_cut_options *options)
 {
     const double sigma =
-        options->lab ? exemplar->lab_sigma : exemplar->match_sigma;
+        options->lab ? exemplars->lab_sigma : exemplars->match_sigma;
 
     return (otx_cut_cost){
         .surface = surface,
         .leaf = otx_surface_leaf(surface),
-        .exemplar = exemplar,
-        .image = options->lab ? &exemplar->lab : &exemplar->match,
+        .exemplars = exemplars,
         .offers = offers,
         .options = options,
         /* The picture of one colour has no sigma; any unit serves. */
@@ -46,6 +45,19 @@ whole(const otx_cut_cost *cost, double energy)
     return units < (double)cost_max ? llround(units) : cost_max;
 }
 
+/* What one side of an edge shows. */
+typedef struct flank
+{
+    const otx_exemplar *exemplar;
+    otx_vec2 ends[2]; /* of the edge */
+} flank;
+
+static const otx_exemplar *
+exemplar_of(const otx_cut_cost *cost, otx_cut_view view)
+{
+    return &cost->exemplars[cost->offers[view.label].exemplar];
+}
+
 /* UVs that a view gives to the ends of an edge of `face`. */
 static void
 side_of(
@@ -61,20 +73,29 @@ side_of(
         side[k] = uvs[corners[k] - cost->leaf->face_first[face]];
 }
 
+static void
+sample(
+    const otx_cut_cost *cost, const flank *side, double offset, int32_t count,
+    float *colors)
+{
+    const otx_exemplar *e = side->exemplar;
+
+    otx_seam_sample(
+        cost->options->lab ? &e->lab : &e->match, e->wrap_x, e->wrap_y,
+        side->ends, offset, count, colors);
+}
+
 /* Mean distance of the colours along two sides. */
 static double
 mean_difference(
-    const otx_cut_cost *cost, const otx_vec2 a[2], const otx_vec2 b[2],
-    double offset, int32_t count)
+    const otx_cut_cost *cost, const flank sides[2], double offset,
+    int32_t count)
 {
-    const otx_exemplar *exemplar = cost->exemplar;
     float p[3 * SAMPLES_MAX], q[3 * SAMPLES_MAX];
     double sum = 0.0;
 
-    otx_seam_sample(
-        cost->image, exemplar->wrap_x, exemplar->wrap_y, a, offset, count, p);
-    otx_seam_sample(
-        cost->image, exemplar->wrap_x, exemplar->wrap_y, b, offset, count, q);
+    sample(cost, &sides[0], offset, count, p);
+    sample(cost, &sides[1], offset, count, q);
     for (int32_t i = 0; i < 3 * count; i += 3)
     {
         const double x = p[i] - q[i];
@@ -89,18 +110,16 @@ mean_difference(
 /* On the edge itself and, at half the samples, on each side of it: colours
  * may agree by chance on a line, hardly on a band. */
 static double
-band_difference(
-    const otx_cut_cost *cost, const otx_vec2 a[2], const otx_vec2 b[2],
-    int32_t count)
+band_difference(const otx_cut_cost *cost, const flank sides[2], int32_t count)
 {
     const double band = cost->options->band;
-    const double middle = mean_difference(cost, a, b, 0.0, count);
+    const double middle = mean_difference(cost, sides, 0.0, count);
 
     if (!(band > 0.0))
         return middle;
     return 0.5 * middle +
-           0.25 * mean_difference(cost, a, b, band, (count + 1) / 2) +
-           0.25 * mean_difference(cost, a, b, -band, (count + 1) / 2);
+           0.25 * mean_difference(cost, sides, band, (count + 1) / 2) +
+           0.25 * mean_difference(cost, sides, -band, (count + 1) / 2);
 }
 
 int64_t
@@ -108,13 +127,16 @@ otx_cut_cost_edge(
     const otx_cut_cost *cost, int32_t edge, otx_cut_view a, otx_cut_view b)
 {
     const int32_t *faces = cost->leaf->edge_faces + 2 * (size_t)edge;
-    otx_vec2 sides[2][2];
+    flank sides[2];
 
     if (a.label < 0 || b.label < 0 || a.label == b.label)
         return 0;
-    side_of(cost, edge, faces[0], a, sides[0]);
-    side_of(cost, edge, faces[1], b, sides[1]);
-    if (otx_seam_continuous(cost->exemplar, sides[0], sides[1]))
+    sides[0].exemplar = exemplar_of(cost, a);
+    sides[1].exemplar = exemplar_of(cost, b);
+    side_of(cost, edge, faces[0], a, sides[0].ends);
+    side_of(cost, edge, faces[1], b, sides[1].ends);
+    if (sides[0].exemplar == sides[1].exemplar &&
+        otx_seam_continuous(sides[0].exemplar, sides[0].ends, sides[1].ends))
         return 0;
 
     const double length =
@@ -123,8 +145,8 @@ otx_cut_cost_edge(
     const int32_t count = wanted < SAMPLES_MAX ? wanted : SAMPLES_MAX;
 
     return whole(
-        cost, length * (band_difference(cost, sides[0], sides[1], count) +
-                        cost->edge_length));
+        cost,
+        length * (band_difference(cost, sides, count) + cost->edge_length));
 }
 
 bool

@@ -3,7 +3,8 @@
  * E = sum over interior leaf edges of V(edge, label, label)
  *   + sum over faces of distortion * area * cost
  *
- * V is 0 for equal labels and where the two charts are continuous; otherwise
+ * V is 0 for equal labels and where two charts of one exemplar are continuous;
+ * otherwise
  * length * (mean colour difference + a constant). Length and samples depend on
  * the edge alone, so that V is a metric over labels, which is what expansion
  * moves ask for. Rounding to whole numbers makes cuts exact and sums
@@ -18,8 +19,7 @@ typedef struct otx_cut_cost
 {
     const otx_surface *surface;
     const otx_level *leaf;
-    const otx_exemplar *exemplar;
-    const otx_image *image; /* of the exemplar: match or lab */
+    const otx_exemplar *exemplars;
     const otx_offer *offers;
     const otx_cut_options *options;
     double unit;        /* colour difference x texels in one whole number */
@@ -34,7 +34,7 @@ typedef struct otx_cut_view
 } otx_cut_view;
 
 otx_cut_cost otx_cut_cost_create(
-    const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_surface *surface, const otx_exemplar *exemplars,
     const otx_offer *offers, const otx_cut_options *options);
 
 /* V between the faces of an interior edge, first and second of edge_faces, if

@@ -41,15 +41,24 @@ typedef struct seam_end
     int32_t v[4];
 } seam_end;
 
+/* An exemplar at the level of its pyramid that is worked on. */
+typedef struct view
+{
+    const otx_exemplar *exemplar;
+    const otx_image *image;
+} view;
+
 typedef struct elastic
 {
     otx_run *run;
     const otx_surface *surface;
-    const otx_exemplar *exemplar;
+    const otx_exemplar *exemplars;
+    int32_t exemplar_count;
     const otx_elastic_options *options;
     otx_sheet sheet;
-    const otx_image *image; /* level of the pyramid */
-    double weight;          /* 1 / sigma^2 */
+    uint8_t *source; /* [count] the exemplar of each variable */
+    otx_pyramid *pyramids;
+    view *views;
     seam_block *blocks;
     int32_t *end_first; /* [count + 1] offsets into ends */
     seam_end *ends;
@@ -78,19 +87,19 @@ fold(int32_t i, int32_t n, bool wrap)
 /* Bilinear colour and its derivative by the texel position at full
  * resolution. */
 static void
-sample(const elastic *e, otx_vec2 texel, double color[3], otx_vec2 slope[3])
+sample(const view *from, otx_vec2 texel, double color[3], otx_vec2 slope[3])
 {
-    const otx_image *image = e->image;
-    const double sx = (double)image->width / e->exemplar->match.width;
-    const double sy = (double)image->height / e->exemplar->match.height;
+    const otx_exemplar *e = from->exemplar;
+    const otx_image *image = from->image;
+    const double sx = (double)image->width / e->match.width;
+    const double sy = (double)image->height / e->match.height;
     const double x = texel.x * sx - 0.5, y = texel.y * sy - 0.5;
     const double fx = floor(x), fy = floor(y);
     const double u = x - fx, v = y - fy;
-    const int32_t x0 = fold((int32_t)fx, image->width, e->exemplar->wrap_x);
-    const int32_t x1 = fold((int32_t)fx + 1, image->width, e->exemplar->wrap_x);
-    const int32_t y0 = fold((int32_t)fy, image->height, e->exemplar->wrap_y);
-    const int32_t y1 =
-        fold((int32_t)fy + 1, image->height, e->exemplar->wrap_y);
+    const int32_t x0 = fold((int32_t)fx, image->width, e->wrap_x);
+    const int32_t x1 = fold((int32_t)fx + 1, image->width, e->wrap_x);
+    const int32_t y0 = fold((int32_t)fy, image->height, e->wrap_y);
+    const int32_t y1 = fold((int32_t)fy + 1, image->height, e->wrap_y);
     const float *p00 = otx_image_at(image, x0, y0);
     const float *p10 = otx_image_at(image, x1, y0);
     const float *p01 = otx_image_at(image, x0, y1);
@@ -116,11 +125,30 @@ sample_count(double length)
     return n < 2 ? 2 : n;
 }
 
+/* What the two sides of a seam show. */
+typedef struct flanks
+{
+    const view *a, *b;
+    double weight; /* 1 / sigma^2, of the mean of both sides' sigma^2 */
+} flanks;
+
+static flanks
+flanks_of(const elastic *e, const otx_sheet_seam *seam)
+{
+    const view *a = &e->views[e->source[seam->a[0]]];
+    const view *b = &e->views[e->source[seam->b[0]]];
+    const double sa = a->exemplar->match_sigma, sb = b->exemplar->match_sigma;
+    const double sq = a == b ? sa * sa : 0.5 * (sa * sa + sb * sb);
+
+    return (flanks){a, b, sq > 0.0 ? 1.0 / sq : 0.0};
+}
+
 /* Squared colour difference along a seam, per texel of length. */
 static double
 seam_energy(const elastic *e, const otx_sheet_seam *seam, const otx_vec2 *at)
 {
     const int32_t n = sample_count(seam->length);
+    const flanks by = flanks_of(e, seam);
     double sum = 0.0;
 
     for (int32_t i = 0; i < n; ++i)
@@ -129,12 +157,14 @@ seam_energy(const elastic *e, const otx_sheet_seam *seam, const otx_vec2 *at)
         double a[3], b[3];
         otx_vec2 unused[3];
 
-        sample(e, otx_vec2_lerp(at[seam->a[0]], at[seam->a[1]], t), a, unused);
-        sample(e, otx_vec2_lerp(at[seam->b[0]], at[seam->b[1]], t), b, unused);
+        sample(
+            by.a, otx_vec2_lerp(at[seam->a[0]], at[seam->a[1]], t), a, unused);
+        sample(
+            by.b, otx_vec2_lerp(at[seam->b[0]], at[seam->b[1]], t), b, unused);
         for (int c = 0; c < 3; ++c)
             sum += (a[c] - b[c]) * (a[c] - b[c]);
     }
-    return sum * e->weight * seam->length / n;
+    return sum * by.weight * seam->length / n;
 }
 
 /* Adds one residual with its row of the Jacobian, to the upper triangle. */
@@ -159,7 +189,8 @@ add_samples(
 {
     const otx_vec2 *at = e->sheet.at;
     const int32_t n = sample_count(seam->length);
-    const double weight = e->weight * seam->length / n;
+    const flanks by = flanks_of(e, seam);
+    const double weight = by.weight * seam->length / n;
 
     for (int32_t i = 0; i < n; ++i)
     {
@@ -167,8 +198,8 @@ add_samples(
         double a[3], b[3];
         otx_vec2 da[3], db[3];
 
-        sample(e, otx_vec2_lerp(at[seam->a[0]], at[seam->a[1]], t), a, da);
-        sample(e, otx_vec2_lerp(at[seam->b[0]], at[seam->b[1]], t), b, db);
+        sample(by.a, otx_vec2_lerp(at[seam->a[0]], at[seam->a[1]], t), a, da);
+        sample(by.b, otx_vec2_lerp(at[seam->b[0]], at[seam->b[1]], t), b, db);
         for (int c = 0; c < 3; ++c)
         {
             const double row[8] = {(1.0 - t) * da[c].x,  (1.0 - t) * da[c].y,
@@ -491,15 +522,15 @@ move(elastic *e, double share, double longest, int64_t *refused)
     memset(e->held, 0, (size_t)s->count);
     for (int32_t v = 0; v < s->count; ++v)
     {
+        const otx_exemplar *from = &e->exemplars[e->source[v]];
         const double length = otx_vec2_length(e->step[v]);
         const double scale =
             length > longest ? share * longest / length : share;
         const otx_vec2 p =
             otx_vec2_add(e->moved[v], otx_vec2_scale(scale, e->step[v]));
 
-        s->at[v].x = inside(p.x, e->exemplar->wrap_x, e->exemplar->match.width);
-        s->at[v].y =
-            inside(p.y, e->exemplar->wrap_y, e->exemplar->match.height);
+        s->at[v].x = inside(p.x, from->wrap_x, from->match.width);
+        s->at[v].y = inside(p.y, from->wrap_y, from->match.height);
     }
     return take_back(e, refused);
 }
@@ -546,12 +577,26 @@ round_of(elastic *e, int32_t level, bool *improved, otx_elastic_stats *stats)
     return OSDTEX_OK;
 }
 
+/* Puts all exemplars to a level of their pyramids, or to their last one. */
+static void
+look_at(elastic *e, int32_t level)
+{
+    for (int32_t k = 0; k < e->exemplar_count; ++k)
+    {
+        const otx_pyramid *p = &e->pyramids[k];
+
+        e->views[k] = (view){
+            &e->exemplars[k],
+            &p->levels[level < p->count ? level : p->count - 1]};
+    }
+}
+
 static otx_status
-run_levels(elastic *e, const otx_pyramid *pyramid, otx_elastic_stats *stats)
+run_levels(elastic *e, otx_elastic_stats *stats)
 {
     const otx_elastic_options *o = e->options;
     const int32_t levels =
-        o->levels < pyramid->count ? o->levels : pyramid->count;
+        o->levels < e->pyramids[0].count ? o->levels : e->pyramids[0].count;
     int32_t done = 0;
 
     for (int32_t level = levels - 1; level >= 0; --level)
@@ -559,7 +604,7 @@ run_levels(elastic *e, const otx_pyramid *pyramid, otx_elastic_stats *stats)
         const int32_t until = o->rounds * (levels - level) / levels;
         bool improved = true;
 
-        e->image = &pyramid->levels[level];
+        look_at(e, level);
         for (; done < until && improved; ++done)
         {
             OTX_TRY(otx_progress(
@@ -627,6 +672,40 @@ list_ends(elastic *e)
 }
 
 static otx_status
+build_pyramids(elastic *e)
+{
+    otx_arena *arena = e->run->scratch;
+
+    e->pyramids = OTX_NEW(arena, otx_pyramid, e->exemplar_count);
+    e->views = OTX_NEW(arena, view, e->exemplar_count);
+    if (!e->pyramids || !e->views)
+        return otx_fail_memory(e->run, "relax");
+    for (int32_t k = 0; k < e->exemplar_count; ++k)
+        OTX_TRY(otx_pyramid_build(
+            e->run, arena, &e->exemplars[k].match, &e->pyramids[k]));
+    look_at(e, 0);
+    return OSDTEX_OK;
+}
+
+static void
+list_sources(elastic *e)
+{
+    const uint8_t *of = e->options->patch_exemplar;
+
+    for (int32_t v = 0; v < e->sheet.count; ++v)
+        e->source[v] = of ? of[e->sheet.patches[v]] : 0;
+}
+
+static bool
+has_contrast(const elastic *e)
+{
+    for (int32_t k = 0; k < e->exemplar_count; ++k)
+        if (e->exemplars[k].match_sigma > 0.0)
+            return true;
+    return false;
+}
+
+static otx_status
 allocate(elastic *e)
 {
     otx_arena *arena = e->run->scratch;
@@ -638,35 +717,36 @@ allocate(elastic *e)
     e->diagonal = OTX_NEW(arena, otx_vec2, n);
     e->moved = OTX_NEW(arena, otx_vec2, n);
     e->held = OTX_NEW(arena, uint8_t, n);
+    e->source = OTX_NEW(arena, uint8_t, n);
     e->sigma = OTX_NEW(arena, double, e->sheet.face_count);
     e->badness = OTX_NEW(arena, double, e->sheet.face_count);
     e->end_first = OTX_ZNEW(arena, int32_t, (int64_t)n + 1);
     e->ends = OTX_NEW(arena, seam_end, 4 * (int64_t)e->sheet.seam_count);
     e->end_at = OTX_NEW(arena, int32_t, 4 * (int64_t)e->sheet.seam_count);
     if (!e->badness || !e->end_first || !e->ends || !e->end_at || !e->blocks ||
-        !e->step || !e->b || !e->diagonal || !e->moved || !e->held || !e->sigma)
+        !e->step || !e->b || !e->diagonal || !e->moved || !e->held ||
+        !e->sigma || !e->source)
         return otx_fail_memory(e->run, "relax");
     list_ends(e);
+    list_sources(e);
     return OSDTEX_OK;
 }
 
 otx_status
 otx_elastic_run(
-    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplars,
     const otx_elastic_options *options, const int32_t *face_patch,
     otx_vec2 *uvs, otx_elastic_stats *out)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    const double sigma = exemplar->match_sigma;
     elastic e = {
         .run = run,
         .surface = surface,
-        .exemplar = exemplar,
+        .exemplars = exemplars,
+        .exemplar_count = options->patch_exemplar ? options->exemplar_count : 1,
         .options = options,
-        .weight = sigma > 0.0 ? 1.0 / (sigma * sigma) : 0.0,
     };
     uint8_t *inside = NULL;
-    otx_pyramid pyramid;
 
     *out = (otx_elastic_stats){0};
     if (options->reach > 0.0)
@@ -677,13 +757,12 @@ otx_elastic_run(
         run, surface, options->texels, face_patch, inside, uvs, &e.sheet));
     if (options->keep_shape)
         OTX_TRY(keep_shape(&e));
-    OTX_TRY(otx_pyramid_build(run, run->scratch, &exemplar->match, &pyramid));
+    OTX_TRY(build_pyramids(&e));
     OTX_TRY(allocate(&e));
-    e.image = &pyramid.levels[0];
     OTX_TRY(total_seam_energy(&e, &out->seam_before));
-    if (e.sheet.seam_count > 0 && sigma > 0.0)
-        OTX_TRY(run_levels(&e, &pyramid, out));
-    e.image = &pyramid.levels[0];
+    if (e.sheet.seam_count > 0 && has_contrast(&e))
+        OTX_TRY(run_levels(&e, out));
+    look_at(&e, 0);
     OTX_TRY(total_seam_energy(&e, &out->seam_after));
     otx_sheet_store(&e.sheet, uvs);
     otx_arena_release(run->scratch, mark);

@@ -26,9 +26,12 @@ typedef struct otx_elastic_options
     double stretch;   /* limit of a singular value and of its inverse */
     double reach;     /* texels from a seam beyond which nothing is moved;
                        * 0: everything may */
-    bool keep_shape;  /* rigidity holds the shapes that the UVs have now, not
-                       * the surface's: where a texture's size varies on
-                       * purpose */
+    const uint8_t *patch_exemplar; /* of the exemplars, by patch; NULL: the
+                                    * first throughout */
+    int32_t exemplar_count;        /* that it names; 0 is 1 */
+    bool keep_shape; /* rigidity holds the shapes that the UVs have now, not
+                      * the surface's: where a texture's size varies on
+                      * purpose */
 } otx_elastic_options;
 
 typedef struct otx_elastic_stats
@@ -47,7 +50,7 @@ typedef struct otx_elastic_stats
  *
  * CANCELLED, MEMORY. */
 otx_status otx_elastic_run(
-    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplars,
     const otx_elastic_options *options, const int32_t *face_patch,
     otx_vec2 *uvs, otx_elastic_stats *out);
 

@@ -56,11 +56,20 @@ typedef struct nudge
 /* -- the border ---------------------------------------------------------- */
 
 static void
-sample(const nudge *n, otx_vec2 at, float color[3])
+sample(const otx_exemplar *e, otx_vec2 at, float color[3])
 {
-    const otx_exemplar *e = n->request->exemplar;
-
     otx_image_sample(&e->match, e->wrap_x, e->wrap_y, at, color);
+}
+
+/* What a textured face shows. */
+static const otx_exemplar *
+exemplar_of(const nudge *n, int32_t face)
+{
+    const otx_nudge_request *r = n->request;
+
+    return r->patch_exemplar
+               ? &r->exemplars[r->patch_exemplar[r->face_patch[face]]]
+               : r->exemplar;
 }
 
 /* The textured face across edge k of a core face, -1 when there is none. */
@@ -120,7 +129,8 @@ add_border(nudge *n, int32_t i, int32_t k, int32_t other, int32_t *samples)
     far_side(n, edge, other, far);
     for (int32_t s = 0; s < b->count; ++s)
         sample(
-            n, otx_vec2_lerp(far[0], far[1], (s + 0.5) / b->count),
+            exemplar_of(n, other),
+            otx_vec2_lerp(far[0], far[1], (s + 0.5) / b->count),
             n->colors + 3 * (size_t)(b->first + s));
 }
 
@@ -180,7 +190,7 @@ border_energy(const nudge *n, const border *b, otx_vec2 delta, bool hat)
         double square = 0.0;
         float near[3];
 
-        sample(n, otx_vec2_lerp(from, to, t), near);
+        sample(n->request->exemplar, otx_vec2_lerp(from, to, t), near);
         for (int c = 0; c < 3; ++c)
             square += ((double)near[c] - far[c]) * ((double)near[c] - far[c]);
         if (hat)

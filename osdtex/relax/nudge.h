@@ -15,11 +15,14 @@
 typedef struct otx_nudge_request
 {
     const otx_surface *surface;
-    const otx_exemplar *exemplar;
-    double texels;             /* per scene unit */
-    const int32_t *face_patch; /* [leaf face_count]; textured where >= 0 */
-    const otx_vec2 *uvs;       /* [leaf corner_count] texels, where textured */
-    uint64_t seed;             /* what is drawn depends on it alone */
+    const otx_exemplar *exemplar; /* of the patch */
+    double texels;                /* per scene unit */
+    const int32_t *face_patch;    /* [leaf face_count]; textured where >= 0 */
+    const otx_vec2 *uvs; /* [leaf corner_count] texels, where textured */
+    /* Exemplars of the neighbours, and which by patch; NULL: the patch's. */
+    const otx_exemplar *exemplars;
+    const uint8_t *patch_exemplar;
+    uint64_t seed; /* what is drawn depends on it alone */
 } otx_nudge_request;
 
 /* Moves the vertices of the chart's core in the exemplar.

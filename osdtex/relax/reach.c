@@ -1,4 +1,4 @@
-/* reach.c -- which faces a relaxation may move. */
+/* reach.c -- distances along faces, from where labels change. */
 #include "relax/reach.h"
 
 #include "base/queue.h"
@@ -8,8 +8,10 @@ typedef struct walk
 {
     const otx_surface *surface;
     const otx_level *leaf;
-    const int32_t *face_patch;
-    double *nearest; /* [face_count] from a seam */
+    const int32_t *face_patch; /* -1 is passed over */
+    double *nearest;           /* [face_count] from a seam */
+    double unit;               /* of steps */
+    bool dense;                /* steps are times the surface's density */
     otx_queue queue;
 } walk;
 
@@ -54,6 +56,21 @@ start(walk *w)
     return true;
 }
 
+/* Between the centres of two neighbours. */
+static double
+step(const walk *w, int32_t face, int32_t other)
+{
+    const int32_t *verts = w->leaf->face_verts + w->leaf->face_first[face];
+    const double length =
+        otx_vec3_length(otx_vec3_sub(centre(w, other), centre(w, face)));
+
+    return w->dense
+               ? w->unit * length *
+                     otx_surface_density(
+                         w->surface, verts, otx_level_face_size(w->leaf, face))
+               : length;
+}
+
 /* Goes on to the neighbours of `face`, no farther than `distance`. */
 static bool
 spread(walk *w, int32_t face, double distance)
@@ -65,8 +82,7 @@ spread(walk *w, int32_t face, double distance)
 
         if (other < 0 || w->face_patch[other] < 0)
             continue;
-        d = w->nearest[face] +
-            otx_vec3_length(otx_vec3_sub(centre(w, other), centre(w, face)));
+        d = w->nearest[face] + step(w, face, other);
         if (!(d < w->nearest[other]) || d > distance)
             continue;
         w->nearest[other] = d;
@@ -74,6 +90,19 @@ spread(walk *w, int32_t face, double distance)
             return false;
     }
     return true;
+}
+
+/* False when memory is out. */
+static bool
+go(walk *w, double distance)
+{
+    otx_queue_entry entry;
+    bool fine = start(w);
+
+    while (fine && otx_queue_pop(&w->queue, &entry))
+        if (entry.key <= w->nearest[entry.item])
+            fine = spread(w, entry.item, distance);
+    return fine;
 }
 
 otx_status
@@ -88,17 +117,38 @@ otx_reach_mark(
         .face_patch = face_patch,
         .nearest = OTX_NEW(run->scratch, double, leaf->face_count),
         .queue = otx_queue_make(run->scratch)};
-    otx_queue_entry entry;
-    bool fine;
 
     *out = OTX_NEW(run->scratch, uint8_t, leaf->face_count);
-    fine = *out && w.nearest && start(&w);
-    while (fine && otx_queue_pop(&w.queue, &entry))
-        if (entry.key <= w.nearest[entry.item])
-            fine = spread(&w, entry.item, distance);
-    if (!fine)
+    if (!*out || !w.nearest || !go(&w, distance))
         return otx_fail_memory(run, "relax");
     for (int32_t f = 0; f < leaf->face_count; ++f)
         (*out)[f] = isfinite(w.nearest[f]);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_reach_measure(
+    otx_run *run, const otx_surface *surface, const uint8_t *label, double unit,
+    double limit, double *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const otx_level *leaf = otx_surface_leaf(surface);
+    int32_t *labels = OTX_NEW(run->scratch, int32_t, leaf->face_count);
+    walk w = {
+        .surface = surface,
+        .leaf = leaf,
+        .face_patch = labels,
+        .nearest = out,
+        .unit = unit,
+        .dense = true,
+        .queue = otx_queue_make(run->scratch)};
+
+    if (!labels)
+        return otx_fail_memory(run, "map");
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        labels[f] = leaf->face_hole[f] ? -1 : label[f];
+    if (!go(&w, limit))
+        return otx_fail_memory(run, "map");
+    otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }

@@ -1,7 +1,8 @@
-/* reach.h -- which faces a relaxation may move.
+/* reach.h -- how far faces are from where labels change.
  *
- * Seams pull, and what lies far from all of them comes to rest where it was.
- * Where a surface is mostly one patch, leaving that out is most of the time. */
+ * Which faces a relaxation may move: seams pull, and what lies far from all of
+ * them comes to rest where it was. Where a surface is mostly one patch, leaving
+ * that out is most of the time. */
 #ifndef OTX_RELAX_REACH_H
 #define OTX_RELAX_REACH_H
 
@@ -18,5 +19,18 @@
 otx_status otx_reach_mark(
     otx_run *run, const otx_surface *surface, const int32_t *face_patch,
     double distance, uint8_t **out);
+
+/* How far each leaf face is from one that has a neighbour with another label,
+ * from centre to centre along faces; INFINITY beyond `limit`.
+ *
+ *   label   [leaf face_count]
+ *   unit    texels to a scene unit, times the surface's density
+ *   limit   texels
+ *   out     [leaf face_count] texels
+ *
+ * MEMORY. */
+otx_status otx_reach_measure(
+    otx_run *run, const otx_surface *surface, const uint8_t *label, double unit,
+    double limit, double *out);
 
 #endif

@@ -99,6 +99,7 @@ number_variables(
                 continue;
             }
             s->verts[s->count] = v;
+            s->patches[s->count] = patch[c];
             s->at[s->count] = uvs[c];
             variable[c] = s->count++;
         }
@@ -194,11 +195,12 @@ otx_sheet_build(
     out->corners = OTX_NEW(arena, int32_t, leaf->corner_count);
     out->corner_leaf = OTX_NEW(arena, int32_t, leaf->corner_count);
     out->verts = OTX_NEW(arena, int32_t, leaf->corner_count);
+    out->patches = OTX_NEW(arena, int32_t, leaf->corner_count);
     out->at = OTX_NEW(arena, otx_vec2, leaf->corner_count);
     out->seams = OTX_NEW(arena, otx_sheet_seam, leaf->edge_count + 1);
     if (!patch || !variable || !out->fixed || !out->first || !out->corners ||
-        !out->corner_leaf || !out->verts || !out->at || !out->seams ||
-        !vertex_corners(leaf, arena, &first, &corner))
+        !out->corner_leaf || !out->verts || !out->patches || !out->at ||
+        !out->seams || !vertex_corners(leaf, arena, &first, &corner))
         return otx_fail_memory(run, "relax");
     number_variables(leaf, first, corner, patch, uvs, out, variable);
     if (inside)

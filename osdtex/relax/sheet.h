@@ -25,6 +25,7 @@ typedef struct otx_sheet
     int32_t *corner_leaf; /* offsets into the leaf level's corners */
     int32_t count;        /* variables */
     int32_t *verts;       /* [count] leaf vertices */
+    int32_t *patches;     /* [count] */
     otx_vec2 *at;         /* [count] texels */
     uint8_t *fixed;       /* [count] 1: of a face that is left out as well */
     int32_t seam_count;

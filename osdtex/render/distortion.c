@@ -116,9 +116,10 @@ fitting_unit(const otx_scene *scene)
 
 otx_status
 otx_distortion_faces(
-    otx_run *run, otx_arena *arena, const otx_scene *scene, otx_vec2 unit,
-    const float **out)
+    otx_run *run, otx_arena *arena, const otx_scene *scene,
+    const otx_vec2 *units, const float **out)
 {
+    otx_vec2 chosen = {0.0, 0.0};
     float *stretch;
 
     *out = NULL;
@@ -127,11 +128,16 @@ otx_distortion_faces(
     stretch = OTX_NEW(arena, float, scene->face_count);
     if (!stretch)
         return otx_fail_memory(run, "render");
-    if (!(unit.x > 0.0 && unit.y > 0.0))
-        unit = fitting_unit(scene);
+    if (!units)
+        chosen = fitting_unit(scene);
     for (int32_t f = 0; f < scene->face_count; ++f)
-        stretch[f] =
-            otx_scene_is_hole(scene, f) ? NAN : face_stretch(scene, f, unit);
+    {
+        const int32_t t = scene->face_texture ? scene->face_texture[f] : 0;
+
+        stretch[f] = otx_scene_is_hole(scene, f)
+                         ? NAN
+                         : face_stretch(scene, f, units ? units[t] : chosen);
+    }
     *out = stretch;
     return OSDTEX_OK;
 }

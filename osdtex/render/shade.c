@@ -59,14 +59,13 @@ prepare_islands(otx_run *run, otx_shade *out)
 static otx_status
 prepare_stretch(otx_run *run, otx_shade *out)
 {
-    const otx_vec2 fitting = {0.0, 0.0};
     int64_t flipped;
     double mean;
 
     out->stretch = out->scene->face_stretch;
     if (!out->stretch)
         OTX_TRY(otx_distortion_faces(
-            run, run->scratch, out->scene, fitting, &out->stretch));
+            run, run->scratch, out->scene, NULL, &out->stretch));
     if (!out->stretch)
         return OSDTEX_OK;
     mean = otx_distortion_mean(out->scene, out->stretch, &flipped);

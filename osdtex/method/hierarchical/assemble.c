@@ -28,12 +28,14 @@ relax(otx_mapper *m)
         .stiffness = m->settings.stiffness,
         .stretch = 1.6,
         .reach = m->given ? m->given->reach : 0.0,
+        .patch_exemplar = m->patch_exemplar,
+        .exemplar_count = m->supply_count,
         .keep_shape = m->given != NULL,
     };
     otx_elastic_stats stats;
 
     OTX_TRY(otx_elastic_run(
-        m->run, m->surface, m->exemplar, &options, m->face_patch, m->uvs,
+        m->run, m->surface, m->exemplars, &options, m->face_patch, m->uvs,
         &stats));
     m->stats->relax_before = stats.seam_before;
     m->stats->relax_after = stats.seam_after;
@@ -46,7 +48,6 @@ static otx_status
 write_uvs(const otx_mapper *m, otx_mapping *out)
 {
     const otx_level *leaf = m->leaves.level;
-    const otx_exemplar *e = m->exemplar;
     otx_vec2 *shift = OTX_NEW(m->run->scratch, otx_vec2, m->patch_count + 1);
     uint8_t *known = OTX_ZNEW(m->run->scratch, uint8_t, m->patch_count + 1);
 
@@ -55,6 +56,8 @@ write_uvs(const otx_mapper *m, otx_mapping *out)
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {
         const int32_t p = m->face_patch[f];
+        const otx_exemplar *e =
+            &m->exemplars[p < 0 ? 0 : otx_supply_of_patch(m, p)];
 
         for (int32_t c = leaf->face_first[f]; c < leaf->face_first[f + 1]; ++c)
         {
@@ -91,7 +94,14 @@ number_patches(const otx_mapper *m, otx_mapping *out)
         if (m->face_patch[f] >= 0)
             number[m->face_patch[f]] = 1;
     for (int32_t p = 0; p < m->patch_count; ++p)
+    {
+        /* Patches come before their numbers: none is overwritten unread. */
+        if (number[p] && m->patch_exemplar)
+            m->patch_exemplar[out->patch_count] = m->patch_exemplar[p];
         number[p] = number[p] ? out->patch_count++ : -1;
+    }
+    out->patch_exemplar = m->patch_exemplar;
+    out->exemplar_count = m->supply_count;
     for (int32_t f = 0; f < faces; ++f)
         out->face_patch[f] =
             m->face_patch[f] < 0 ? -1 : number[m->face_patch[f]];
@@ -105,9 +115,9 @@ keep_guide(const otx_mapper *m, otx_mapping *out)
 
     if (!guide)
         return otx_fail_memory(m->run, "map");
-    if (!m->request->guide)
+    if (!m->supplies[0].guide)
         return OSDTEX_OK;
-    *guide = *m->request->guide;
+    *guide = *m->supplies[0].guide;
     out->guide = guide;
     return OSDTEX_OK;
 }

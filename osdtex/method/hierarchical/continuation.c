@@ -15,7 +15,7 @@ otx_continuation_angle(const otx_mask *mask)
     {
         const otx_mask_triangle *t = &mask->triangles[i];
 
-        for (int k = 1; k < 3; ++k)
+        for (int k = 1; k < 3 && !t->from; ++k)
         {
             const otx_vec2 a = otx_vec2_sub(t->flat[k], t->flat[0]);
             const otx_vec2 b = otx_vec2_sub(t->source[k], t->source[0]);
@@ -36,19 +36,31 @@ within_picture(double x, bool wraps, double size)
     return wraps ? x - size * nearbyint(x / size) : x;
 }
 
+/* The first triangle of the exemplar that is searched; NULL when all are of
+ * others. */
+static const otx_mask_triangle *
+first_own(const otx_mask *mask)
+{
+    for (int32_t i = 0; i < mask->triangle_count; ++i)
+        if (!mask->triangles[i].from)
+            return &mask->triangles[i];
+    return NULL;
+}
+
 /* Mean shift over the mask. Neighbours may lie whole pictures apart, so it is
  * taken relative to the first triangle's. */
 static otx_vec2
-mean_shift(const otx_exemplar *e, const otx_mask *mask, otx_vec2 turn)
+mean_shift(
+    const otx_exemplar *e, const otx_mask *mask, const otx_mask_triangle *first,
+    otx_vec2 turn)
 {
-    const otx_mask_triangle *first = &mask->triangles[0];
     const otx_vec2 origin =
         otx_vec2_sub(first->source[0], otx_vec2_mul(turn, first->flat[0]));
     otx_vec2 sum = {0, 0};
     double weight = 0.0;
 
     for (int32_t i = 0; i < mask->triangle_count; ++i)
-        for (int k = 0; k < 3; ++k)
+        for (int k = 0; k < 3 && !mask->triangles[i].from; ++k)
         {
             const otx_mask_triangle *t = &mask->triangles[i];
             const otx_vec2 d = otx_vec2_sub(
@@ -68,14 +80,18 @@ mean_shift(const otx_exemplar *e, const otx_mask *mask, otx_vec2 turn)
 
 bool
 otx_continuation_match(
-    const otx_mapper *m, const otx_mask *mask, const otx_vec2 *points,
+    const otx_supply *supply, const otx_mask *mask, const otx_vec2 *points,
     int32_t count, otx_match *out)
 {
-    const otx_exemplar *e = m->exemplar;
+    const otx_exemplar *e = supply->exemplar;
+    const otx_mask_triangle *first = first_own(mask);
     const double angle = otx_continuation_angle(mask);
     const otx_vec2 turn = otx_vec2_polar(angle);
-    const otx_vec2 shift = mean_shift(e, mask, turn);
+    otx_vec2 shift;
 
+    if (!first)
+        return false;
+    shift = mean_shift(e, mask, first, turn);
     for (int32_t i = 0; i < count; ++i)
     {
         const otx_vec2 p = otx_vec2_add(otx_vec2_mul(turn, points[i]), shift);
@@ -85,6 +101,6 @@ otx_continuation_match(
             return false;
     }
     *out = (otx_match){angle, shift, 0.0};
-    out->error = otx_matcher_score(m->matcher, mask, out);
+    out->error = otx_matcher_score(supply->matcher, mask, out);
     return isfinite(out->error);
 }

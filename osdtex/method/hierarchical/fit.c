@@ -54,9 +54,8 @@ add_triangle(
  * land inside an exemplar that does not tile, so a wide one leaves few places
  * to choose from, and keeps the patch away from the exemplar's rim. */
 static double
-widest_mask(const otx_mapper *m, double size)
+widest_mask(const otx_exemplar *e, double size)
 {
-    const otx_exemplar *e = m->exemplar;
     const double width = e->wrap_x ? INFINITY : e->match.width;
     const double height = e->wrap_y ? INFINITY : e->match.height;
 
@@ -73,7 +72,9 @@ make_mask(
     const otx_level *leaf = m->leaves.level;
     const double band = otx_nodes_band(m, node);
     const double collar = otx_nodes_collar(m, node);
-    const double widest = fmax(band, widest_mask(m, otx_nodes_size(m, node)));
+    const double widest = fmax(
+        band,
+        widest_mask(otx_supply_of(m, node)->exemplar, otx_nodes_size(m, node)));
     /* A triangle that is cut leaves two. */
     otx_mask_triangle *triangles = OTX_NEW(
         scratch, otx_mask_triangle,
@@ -91,10 +92,15 @@ make_mask(
 
         if (m->face_patch[face] < 0 || chart->reach[i] > widest)
             continue;
+
+        const int32_t from = otx_supply_of_patch(m, m->face_patch[face]);
+
         for (int32_t k = 1; k + 1 < chart->first[i + 1] - first; ++k)
         {
             const int32_t at[3] = {0, k, k + 1};
-            otx_mask_triangle t = {.from = NULL};
+            otx_mask_triangle t = {
+                .from =
+                    from == node->supply ? NULL : m->supplies[from].matcher};
 
             for (int j = 0; j < 3; ++j)
             {
@@ -183,11 +189,11 @@ place_freely(
     const otx_mapper *m, int32_t index, const otx_vec2 *points, int32_t count,
     otx_match *out)
 {
-    const otx_image *image = &m->exemplar->match;
+    const otx_supply *supply = otx_supply_of(m, &m->nodes[index]);
+    const otx_exemplar *e = supply->exemplar;
     double guided[OTX_FOLLOW_ANGLES];
     const int32_t guided_count =
-        m->request->guide ? otx_follow_angles(m, &m->nodes[index], NAN, guided)
-                          : 0;
+        supply->guide ? otx_follow_angles(m, &m->nodes[index], NAN, guided) : 0;
 
     for (int32_t turn = 0; turn < 64; ++turn)
     {
@@ -201,10 +207,8 @@ place_freely(
         double x, y, dx, dy;
 
         turned_bounds(points, count, otx_vec2_polar(angle), &low, &high);
-        if (!shift_range(
-                m->exemplar->wrap_x, image->width, low.x, high.x, &x, &dx) ||
-            !shift_range(
-                m->exemplar->wrap_y, image->height, low.y, high.y, &y, &dy))
+        if (!shift_range(e->wrap_x, e->match.width, low.x, high.x, &x, &dx) ||
+            !shift_range(e->wrap_y, e->match.height, low.y, high.y, &y, &dy))
             continue;
         x += dx * otx_random_unit(m->run->seed, STAGE_PLACE, 2 * element);
         y += dy * otx_random_unit(m->run->seed, STAGE_PLACE, 2 * element + 1);
@@ -253,11 +257,12 @@ first_heading(const otx_mapper *m, const otx_chart *chart)
  * not fit so turned. */
 static bool
 place_first(
-    const otx_mapper *m, const otx_chart *chart, const otx_vec2 *points,
+    const otx_mapper *m, const otx_node *node, const otx_vec2 *points,
     int32_t count, otx_match *out)
 {
     const otx_map_request *r = m->request;
-    const otx_exemplar *e = m->exemplar;
+    const otx_exemplar *e = otx_supply_of(m, node)->exemplar;
+    const otx_chart *chart = &node->chart;
     const double w = e->match.width, h = e->match.height;
     const double angle = r->first_angle - first_heading(m, chart);
     const otx_vec2 turn = otx_vec2_polar(angle), middle = core_middle(chart);
@@ -278,7 +283,9 @@ search(
     const otx_mapper *m, const trial *t, const otx_mask *mask, otx_match *best,
     int32_t *count)
 {
-    const otx_hierarchical_settings *s = &m->settings;
+    const otx_node *node = &m->nodes[t->index];
+    const otx_supply *supply = otx_supply_of(m, node);
+    const otx_hierarchical_settings *s = &supply->settings;
     const double start = s->continuation ? otx_continuation_angle(mask)
                                          : 2.0 * OTX_PI *
                                                otx_random_unit(
@@ -289,26 +296,26 @@ search(
 
     for (int32_t k = 0; k < s->angles; ++k)
         angles[k] = start + 2.0 * OTX_PI * k / s->angles;
-    if (m->request->guide)
-        query.angle_count = otx_follow_angles(
-            m, &m->nodes[t->index], otx_continuation_angle(mask), angles);
+    if (supply->guide)
+        query.angle_count =
+            otx_follow_angles(m, node, otx_continuation_angle(mask), angles);
     query.coarse_levels = s->coarse;
     query.coarse_keep = s->keep;
     query.gauss_newton = s->mode == OTX_HIERARCHICAL_BEST;
     query.cover = t->points;
     query.cover_count = t->point_count;
-    query.centre = core_middle(&m->nodes[t->index].chart);
+    query.centre = core_middle(&node->chart);
     if (s->usage > 0.0 && m->done_area > 0.0)
     {
-        query.usage = m->usage;
+        query.usage = supply->usage;
         query.usage_width = query.usage_height = OTX_USAGE_CELLS;
         query.usage_weight = s->usage;
     }
     return t->alone ? otx_matcher_search(
-                          m->run, m->matcher, mask, &query, best, s->candidates,
-                          count)
+                          m->run, supply->matcher, mask, &query, best,
+                          s->candidates, count)
                     : otx_matcher_search_serial(
-                          t->scratch, m->matcher, mask, &query, best,
+                          t->scratch, supply->matcher, mask, &query, best,
                           s->candidates, count);
 }
 
@@ -318,10 +325,12 @@ offer_continuation(
     const otx_mapper *m, const trial *t, const otx_mask *mask, otx_match *best,
     int32_t *count)
 {
+    const otx_node *node = &m->nodes[t->index];
     otx_match match;
 
-    if (!otx_continuation_match(m, mask, t->points, t->point_count, &match) ||
-        !otx_follow_allows(m, &m->nodes[t->index], match.angle) ||
+    if (!otx_continuation_match(
+            otx_supply_of(m, node), mask, t->points, t->point_count, &match) ||
+        !otx_follow_allows(m, node, match.angle) ||
         (*count > 0 && match.error > best[0].error))
         return;
     best[0] = match;
@@ -357,8 +366,7 @@ find_place(const otx_mapper *m, trial *t, otx_fit *fit)
     OTX_TRY(make_mask(m, node, t->scratch, &mask));
     fit->searched = mask.triangle_count > 0 && !is_users_first(m, node);
     if (is_users_first(m, node))
-        count =
-            place_first(m, &node->chart, t->points, t->point_count, &best[0]);
+        count = place_first(m, node, t->points, t->point_count, &best[0]);
     else if (fit->searched)
         OTX_TRY(search(m, t, &mask, best, &count));
     else
@@ -441,7 +449,8 @@ otx_fit_find(const otx_mapper *m, otx_fit *fits, int32_t count)
 static void
 note_usage(otx_mapper *m, const otx_node *node, otx_vec2 middle)
 {
-    const otx_image *image = &m->exemplar->match;
+    const otx_supply *supply = otx_supply_of(m, node);
+    const otx_image *image = &supply->exemplar->match;
     const otx_vec2 p = otx_vec2_add(
         otx_vec2_mul(otx_vec2_polar(node->placed.angle), middle),
         node->placed.shift);
@@ -454,8 +463,8 @@ note_usage(otx_mapper *m, const otx_node *node, otx_vec2 middle)
     if (y >= OTX_USAGE_CELLS)
         y = OTX_USAGE_CELLS - 1;
     /* 1 where a cell has got its even share of the surface. */
-    m->usage[y * OTX_USAGE_CELLS + x] +=
-        (float)(node->cluster.area / m->total_area * OTX_USAGE_CELLS * OTX_USAGE_CELLS);
+    supply->usage[y * OTX_USAGE_CELLS + x] +=
+        (float)(node->cluster.area / supply->area * OTX_USAGE_CELLS * OTX_USAGE_CELLS);
 }
 
 static void
@@ -467,6 +476,8 @@ commit(otx_mapper *m, int32_t index, otx_match placed)
 
     node->placed = placed;
     node->patch = m->patch_count;
+    if (m->patch_exemplar)
+        m->patch_exemplar[node->patch] = (uint8_t)node->supply;
     m->patch_node[m->patch_count++] = index;
     for (int32_t i = 0; i < chart->core_count; ++i)
     {

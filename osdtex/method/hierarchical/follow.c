@@ -48,7 +48,7 @@ carry(const otx_mapper *m, const otx_chart *chart, int32_t i, otx_vec3 v)
 static double
 mean_direction(const otx_mapper *m, const otx_node *node)
 {
-    const otx_guide *guide = m->request->guide;
+    const otx_guide *guide = otx_supply_of(m, node)->guide;
     const otx_chart *chart = &node->chart;
     otx_vec2 sum = {0, 0};
 
@@ -71,7 +71,7 @@ otx_follow_angles(
     const otx_mapper *m, const otx_node *node, double continuing,
     double *angles)
 {
-    const otx_guide *guide = m->request->guide;
+    const otx_guide *guide = otx_supply_of(m, node)->guide;
     const double sector = 2.0 * OTX_PI / guide->symmetry;
     const double mean = guide->angle - mean_direction(m, node);
     const double off = remainder(continuing - mean, sector);
@@ -88,7 +88,7 @@ otx_follow_angles(
 bool
 otx_follow_allows(const otx_mapper *m, const otx_node *node, double angle)
 {
-    const otx_guide *guide = m->request->guide;
+    const otx_guide *guide = otx_supply_of(m, node)->guide;
 
     return !guide || fabs(remainder(
                          angle - guide->angle + mean_direction(m, node),
@@ -98,7 +98,7 @@ otx_follow_allows(const otx_mapper *m, const otx_node *node, double angle)
 double
 otx_follow_deviation(const otx_mapper *m, const otx_node *node, int32_t i)
 {
-    const otx_guide *guide = m->request->guide;
+    const otx_guide *guide = otx_supply_of(m, node)->guide;
     const otx_vec2 d =
         carry(m, &node->chart, i, guide->directions[node->chart.faces[i]]);
 

@@ -45,7 +45,7 @@ otx_given_clusters(otx_mapper *m, otx_cluster_list *out)
         *out = (otx_cluster_list){0};
         return OSDTEX_OK;
     }
-    return otx_nodes_grow(m, &m->leaves, &open, out);
+    return otx_nodes_grow(m, &m->supplies[0], &m->leaves, &open, out);
 }
 
 /* The faces of one given patch, at their UVs. */
@@ -75,7 +75,7 @@ offer_patch(otx_mapper *m, int32_t patch, int32_t count)
         memcpy(
             uvs + first[i], m->given->uvs + leaf->face_first[faces[i]],
             (size_t)(first[i + 1] - first[i]) * sizeof *uvs);
-    m->offers[patch] = (otx_offer){n, faces, uvs, first, NULL};
+    m->offers[patch] = (otx_offer){n, faces, uvs, first, NULL, 0};
     return OSDTEX_OK;
 }
 

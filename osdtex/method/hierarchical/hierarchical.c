@@ -171,10 +171,9 @@ allocate(otx_mapper *m)
     m->face_patch = OTX_NEW(m->run->arena, int32_t, leaf->face_count);
     m->patch_node = OTX_NEW(m->run->arena, int32_t, leaf->face_count);
     m->uvs = OTX_ZNEW(m->run->arena, otx_vec2, leaf->corner_count);
-    m->usage = OTX_ZNEW(m->run->arena, float, OTX_USAGE_CELLS *OTX_USAGE_CELLS);
     m->spaces = OTX_NEW(m->run->arena, otx_chart_space, threads);
     if (!m->leaf_node || !m->face_patch || !m->patch_node || !m->uvs ||
-        !m->usage || !m->spaces)
+        !m->spaces)
         return otx_fail_memory(m->run, "map");
     for (int32_t f = 0; f < leaf->face_count; ++f)
         m->leaf_node[f] = m->face_patch[f] = -1;
@@ -189,8 +188,6 @@ allocate(otx_mapper *m)
 static otx_status
 prepare(otx_mapper *m)
 {
-    const otx_exemplar *e = m->exemplar;
-
     OTX_TRY(otx_dual_build(
         m->run, m->surface, m->surface->level_count - 1, &m->leaves));
     for (int32_t f = 0; f < m->leaves.level->face_count; ++f)
@@ -198,16 +195,36 @@ prepare(otx_mapper *m)
     OTX_TRY(allocate(m));
     if (!otx_nodes_defer(m))
         return otx_fail_memory(m->run, "map");
-    return otx_matcher_create(
-        m->run, &e->match, e->wrap_x, e->wrap_y, e->match_sigma,
-        m->settings.coarse, &m->matcher);
+    return otx_supply_prepare(m);
 }
 
+/* All exemplars, the settings resolved for each. */
+static void
+list_supplies(
+    otx_mapper *m, const otx_hierarchical_settings *settings,
+    const otx_guide *guides)
+{
+    for (int32_t k = 0; k < m->supply_count; ++k)
+    {
+        otx_supply *s = &m->supplies[k];
+
+        s->exemplar = &m->exemplars[k];
+        s->settings = *settings;
+        s->guide = guides && guides[k].directions ? &guides[k] : NULL;
+        otx_hierarchical_resolve(&s->settings, m->exemplars);
+        if (k > 0)
+            otx_hierarchical_adapt(&s->settings, m->exemplars, s->exemplar);
+    }
+    m->settings = m->supplies[0].settings;
+}
+
+/*   guides  [exemplars]; without directions: not to be followed */
 static otx_status
-fill(
-    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    const otx_map_request *request, const void *settings,
-    const otx_method_given *given, otx_mapping *out, otx_map_stats *stats)
+cover(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplars,
+    const otx_map_request *request, const otx_guide *guides,
+    const otx_hierarchical_settings *settings, const otx_method_given *given,
+    otx_mapping *out, otx_map_stats *stats)
 {
     otx_mapper *m = OTX_ZNEW(run->arena, otx_mapper, 1);
 
@@ -215,13 +232,13 @@ fill(
         return otx_fail_memory(run, "map");
     m->run = run;
     m->surface = surface;
-    m->exemplar = exemplar;
+    m->exemplars = exemplars;
+    m->supply_count = request->demand ? request->exemplar_count : 1;
     m->request = request;
     m->given = given;
-    m->settings = *(const otx_hierarchical_settings *)settings;
     m->stats = stats;
-    m->texels = exemplar->match.width / request->scale;
-    otx_hierarchical_resolve(&m->settings, exemplar);
+    m->texels = exemplars->match.width / request->scale;
+    list_supplies(m, settings, guides);
     stats->threshold = m->settings.tau;
 
     OTX_TRY(prepare(m));
@@ -241,23 +258,35 @@ fill(
     return otx_assemble(m, out);
 }
 
-/* A field for patches to follow, where the exemplar has a direction. */
+static otx_status
+fill(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_map_request *request, const void *settings,
+    const otx_method_given *given, otx_mapping *out, otx_map_stats *stats)
+{
+    return cover(
+        run, surface, exemplar, request, request->guide, settings, given, out,
+        stats);
+}
+
+/* A field for patches to follow, where the exemplar has a direction.
+ *
+ *   known  what the exemplar is taken for; NULL: it is analysed
+ *   kind   out: its name */
 static otx_status
 make_guide(
     otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    const otx_hierarchical_settings *settings, otx_map_request *request,
-    otx_guide *guide)
+    const otx_map_request *request, const otx_analysis *known, otx_guide *guide,
+    const char **kind)
 {
     otx_analysis a;
 
-    if (request->guide || settings->guide != OTX_HIERARCHICAL_AUTO ||
-        settings->mode == OTX_HIERARCHICAL_PAPER)
-        return OSDTEX_OK;
-    if (request->analysis)
-        a = *request->analysis;
+    if (known)
+        a = *known;
     else
         OTX_TRY(otx_analysis_run(
             run, &exemplar->lab, exemplar->wrap_x, exemplar->wrap_y, &a));
+    *kind = otx_analysis_name(a.kind);
     if (a.kind == OTX_ANALYSIS_ISOTROPIC)
         return OSDTEX_OK;
     otx_note(
@@ -265,8 +294,27 @@ make_guide(
         "the exemplar is %s, at %.0f degrees: patches follow a field of "
         "symmetry %d",
         otx_analysis_name(a.kind), a.angle * 180.0 / OTX_PI, (int)a.symmetry);
-    request->guide = guide;
     return otx_guide_make(run, surface, &a, request->constraints, guide);
+}
+
+static otx_status
+make_guides(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplars,
+    const otx_hierarchical_settings *settings, const otx_map_request *request,
+    otx_guide *guides, otx_map_stats *stats)
+{
+    const int32_t count = request->demand ? request->exemplar_count : 1;
+
+    if (request->guide)
+        guides[0] = *request->guide;
+    if (settings->guide != OTX_HIERARCHICAL_AUTO ||
+        settings->mode == OTX_HIERARCHICAL_PAPER)
+        return OSDTEX_OK;
+    for (int32_t k = request->guide ? 1 : 0; k < count; ++k)
+        OTX_TRY(make_guide(
+            run, surface, &exemplars[k], request,
+            k == 0 ? request->analysis : NULL, &guides[k], &stats->classes[k]));
+    return OSDTEX_OK;
 }
 
 /* The sizes that the user asks for. */
@@ -291,19 +339,19 @@ make_density(
 }
 
 static otx_status
-map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplars,
     const otx_map_request *request, const void *settings, otx_mapping *out,
     otx_map_stats *stats)
 {
-    otx_map_request *guided = OTX_NEW(run->arena, otx_map_request, 1);
-    otx_guide *guide = OTX_NEW(run->arena, otx_guide, 1);
+    otx_guide *guides = OTX_ZNEW(run->arena, otx_guide, OTX_EXEMPLARS_MAX);
 
-    if (!guided || !guide)
+    if (!guides)
         return otx_fail_memory(run, "map");
-    *guided = *request;
     OTX_TRY(make_density(run, settings, request, &surface));
-    OTX_TRY(make_guide(run, surface, exemplar, settings, guided, guide));
-    return fill(run, surface, exemplar, guided, settings, NULL, out, stats);
+    OTX_TRY(
+        make_guides(run, surface, exemplars, settings, request, guides, stats));
+    return cover(
+        run, surface, exemplars, request, guides, settings, NULL, out, stats);
 }
 
 static void
@@ -320,6 +368,7 @@ const otx_method otx_method_hierarchical = {
     .options = otx_hierarchical_options,
     .option_count = OTX_HIERARCHICAL_OPTION_COUNT,
     .settings_bytes = sizeof(otx_hierarchical_settings),
+    .mixes = true,
     .resolve = resolve,
     .map = map,
     .fill = fill,

@@ -58,22 +58,30 @@ typedef struct otx_hierarchical_settings
     int32_t relax_rounds;
     double stiffness;
     int32_t guide;
+    double transition; /* texels, -1 auto */
 } otx_hierarchical_settings;
 
 extern const otx_option otx_hierarchical_options[];
 enum
 {
-    OTX_HIERARCHICAL_OPTION_COUNT = 20
+    OTX_HIERARCHICAL_OPTION_COUNT = 21
 };
 
 /* Replaces every "auto" by what it means for this mode and exemplar. */
 void otx_hierarchical_resolve(
     otx_hierarchical_settings *settings, const otx_exemplar *exemplar);
 
+/* Makes settings that were resolved for `first` those of another exemplar: what
+ * is as it comes out for the first by itself becomes so for this one. */
+void otx_hierarchical_adapt(
+    otx_hierarchical_settings *settings, const otx_exemplar *first,
+    const otx_exemplar *exemplar);
+
 /* A cluster on its way to becoming a patch. */
 typedef struct otx_node
 {
     otx_cluster cluster;
+    int32_t supply;  /* that it takes from */
     int32_t depth;   /* 0 for the clusters that the run starts with */
     int32_t *leaves; /* [leaf_count] ascending */
     int32_t leaf_count;
@@ -87,20 +95,32 @@ typedef struct otx_node
     otx_match placed; /* where the chart lies in the exemplar */
 } otx_node;
 
+/* An exemplar, and what is made for it. */
+typedef struct otx_supply
+{
+    const otx_exemplar *exemplar;
+    otx_hierarchical_settings settings; /* resolved for it */
+    otx_matcher *matcher;
+    const otx_guide *guide; /* that its patches follow; NULL none */
+    float *usage;           /* see otx_match_query */
+    double area;            /* of the leaves that are asked for it */
+} otx_supply;
+
 /* One run. Arrays over leaf faces and corners. */
 typedef struct otx_mapper
 {
     otx_run *run;
     const otx_surface *surface;
-    const otx_exemplar *exemplar;
+    const otx_exemplar *exemplars; /* [supply_count] */
     const otx_map_request *request;
     const otx_method_given *given;      /* NULL none */
-    otx_hierarchical_settings settings; /* resolved */
+    otx_hierarchical_settings settings; /* those of the first exemplar */
     otx_map_stats *stats;
     double texels; /* per scene unit */
     otx_dual leaves;
     otx_dual duals[OTX_LEVEL_MAX + 1]; /* of levels, where made */
-    otx_matcher *matcher;
+    otx_supply supplies[OTX_EXEMPLARS_MAX];
+    int32_t supply_count;
     otx_chart_space *spaces; /* [threads] */
 
     otx_node *nodes;
@@ -111,10 +131,15 @@ typedef struct otx_mapper
     int32_t patch_count;
     int32_t *patch_node; /* [leaf face_count] */
     otx_offer *offers;   /* [patch_count] */
-    float *usage;        /* see otx_match_query */
     int32_t wave_count;  /* so far */
     double done_area;    /* of textured leaves */
     double total_area;
+
+    /* Of several exemplars; else NULL. */
+    uint8_t *patch_exemplar; /* [leaf face_count] by patch */
+    double *away;      /* [leaf face_count] texels from where the demand ends,
+                        * INFINITY beyond `transition` */
+    double transition; /* texels from there within which seams may run */
 } otx_mapper;
 
 enum
@@ -123,12 +148,28 @@ enum
     OTX_WAVE_NODES = 16   /* fitted at the same time, at most */
 };
 
+/* supply.c: the exemplars of a run, each with what it needs. */
+otx_status otx_supply_prepare(otx_mapper *m);
+/* Index of the one that a leaf face is asked for. */
+int32_t otx_supply_wanted(const otx_mapper *m, int32_t face);
+const otx_supply *otx_supply_of(const otx_mapper *m, const otx_node *node);
+int32_t otx_supply_of_patch(const otx_mapper *m, int32_t patch);
+/* Whether all leaves of a node are asked for the one that it takes from. */
+bool otx_supply_is_pure(const otx_mapper *m, const otx_node *node);
+/* What it costs in the cut that a node shows a leaf face; negative when it may
+ * not. */
+float otx_supply_cost(const otx_mapper *m, const otx_node *node, int32_t face);
+/* out[supply_count]: what asks for each, in faces of `level`, or of the leaf
+ * level where faces of that are divided. */
+otx_status otx_supply_regions(otx_mapper *m, int32_t level, otx_cluster *out);
+
 /* nodes.c: clusters to start with, charts, splitting. */
 otx_status otx_nodes_start(otx_mapper *m);
-/* Clusters of the size of a patch inside `region`, of dual's level. */
+/* Clusters of the size of a patch of `supply` inside `region`, of dual's
+ * level. */
 otx_status otx_nodes_grow(
-    const otx_mapper *m, const otx_dual *dual, const otx_cluster *region,
-    otx_cluster_list *out);
+    const otx_mapper *m, const otx_supply *supply, const otx_dual *dual,
+    const otx_cluster *region, otx_cluster_list *out);
 /* Flattens the nodes [first, end), in parallel. */
 otx_status otx_nodes_flatten(otx_mapper *m, int32_t first, int32_t end);
 /* Whether the node is small and flat enough to be mapped as one patch. */
@@ -215,13 +256,13 @@ int32_t otx_band_clip(
     const otx_mask_triangle *triangle, const double reach[3], double limit,
     otx_mask_triangle out[2]);
 
-/* continuation.c: the rotation by which the mask's charts lie in the exemplar
- * now, weighted by area: the orientation that continues them. */
+/* continuation.c: the rotation by which the mask's charts of the same exemplar
+ * lie in it now, weighted by area: the orientation that continues them. */
 double otx_continuation_angle(const otx_mask *mask);
-/* The whole placement, with its error. False when one of the points would
- * leave an exemplar that does not tile. */
+/* The whole placement, with its error. False when there is nothing to continue,
+ * or one of the points would leave an exemplar that does not tile. */
 bool otx_continuation_match(
-    const otx_mapper *m, const otx_mask *mask, const otx_vec2 *points,
+    const otx_supply *supply, const otx_mask *mask, const otx_vec2 *points,
     int32_t count, otx_match *out);
 
 /* loop.c: relaxes the placements of an unfitted node and bends its chart by

@@ -48,10 +48,12 @@ otx_loop_relax(
     otx_vec2 *kept = OTX_NEW(scratch, otx_vec2, verts);
     otx_nudge_request request = {
         .surface = m->surface,
-        .exemplar = m->exemplar,
+        .exemplar = otx_supply_of(m, node)->exemplar,
         .texels = m->texels,
         .face_patch = m->face_patch,
         .uvs = m->uvs,
+        .exemplars = m->exemplars,
+        .patch_exemplar = m->patch_exemplar,
     };
     double least = INFINITY;
 

@@ -55,6 +55,7 @@ append_node(otx_mapper *m, const otx_cluster *cluster, int32_t depth)
         m->run->arena, m->surface, cluster, &node->leaf_count);
     if (!node->leaves)
         return otx_fail_memory(m->run, "map");
+    node->supply = otx_supply_wanted(m, node->leaves[0]);
     for (int32_t i = 0; i < node->leaf_count; ++i)
         m->leaf_node[node->leaves[i]] = m->node_count - 1;
     return OSDTEX_OK;
@@ -117,9 +118,11 @@ append_list(otx_mapper *m, const otx_cluster_list *list, int32_t depth)
 static int32_t
 atom_level(const otx_mapper *m)
 {
-    const double size = m->settings.patch / FACES_PER_DIAMETER;
+    double size = m->settings.patch / FACES_PER_DIAMETER;
     int32_t level = 0;
 
+    for (int32_t k = 1; k < m->supply_count; ++k)
+        size = fmin(size, m->supplies[k].settings.patch / FACES_PER_DIAMETER);
     while (
         level + 1 < m->surface->level_count &&
         m->texels *
@@ -133,38 +136,41 @@ atom_level(const otx_mapper *m)
 static otx_status
 dual_of(otx_mapper *m, int32_t level, const otx_dual **out)
 {
-    *out = &m->duals[level];
-    if (m->duals[level].level)
+    *out = level == m->leaves.level_index ? &m->leaves : &m->duals[level];
+    if ((*out)->level)
         return OSDTEX_OK;
     return otx_dual_build(m->run, m->surface, level, &m->duals[level]);
 }
 
 otx_status
 otx_nodes_grow(
-    const otx_mapper *m, const otx_dual *dual, const otx_cluster *region,
-    otx_cluster_list *out)
+    const otx_mapper *m, const otx_supply *supply, const otx_dual *dual,
+    const otx_cluster *region, otx_cluster_list *out)
 {
-    const double diameter = m->settings.patch / m->texels;
+    const double diameter = supply->settings.patch / m->texels;
 
     return otx_cluster_grow(
         m->run, dual, region, diameter * diameter, 1, BEND, out);
 }
 
+/* Clusters of what asks for each exemplar. */
 static otx_status
-start_grown(otx_mapper *m, otx_cluster_list *out)
+start_grown(otx_mapper *m)
 {
-    const int32_t level = atom_level(m);
-    const int32_t count = m->surface->levels[level].face_count;
-    int32_t *faces = OTX_NEW(m->run->arena, int32_t, count);
-    otx_cluster all = {level, count, faces, m->surface->area};
+    otx_cluster regions[OTX_EXEMPLARS_MAX];
+    otx_cluster_list list;
     const otx_dual *dual;
 
-    if (!faces)
-        return otx_fail_memory(m->run, "map");
-    for (int32_t f = 0; f < count; ++f)
-        faces[f] = f;
-    OTX_TRY(dual_of(m, level, &dual));
-    return otx_nodes_grow(m, dual, &all, out);
+    OTX_TRY(otx_supply_regions(m, atom_level(m), regions));
+    OTX_TRY(dual_of(m, regions[0].level, &dual));
+    for (int32_t k = 0; k < m->supply_count; ++k)
+    {
+        if (regions[k].face_count == 0)
+            continue;
+        OTX_TRY(otx_nodes_grow(m, &m->supplies[k], dual, &regions[k], &list));
+        OTX_TRY(append_list(m, &list, 0));
+    }
+    return OSDTEX_OK;
 }
 
 otx_status
@@ -173,10 +179,10 @@ otx_nodes_start(otx_mapper *m)
     otx_cluster_list list;
     const otx_dual *dual;
 
+    if (!m->given && m->settings.clusters == OTX_HIERARCHICAL_GROWN)
+        return start_grown(m);
     if (m->given)
         OTX_TRY(otx_given_clusters(m, &list));
-    else if (m->settings.clusters == OTX_HIERARCHICAL_GROWN)
-        OTX_TRY(start_grown(m, &list));
     else
     {
         OTX_TRY(dual_of(m, 0, &dual));
@@ -221,7 +227,7 @@ otx_nodes_collar(const otx_mapper *m, const otx_node *node)
     if (m->settings.cut != OTX_HIERARCHICAL_ON)
         return band;
     return fmax(
-        band,
+        fmax(band, m->transition),
         fmin(COLLAR_MAXIMUM, m->settings.collar * otx_nodes_size(m, node)));
 }
 
@@ -323,10 +329,11 @@ otx_nodes_can_split(const otx_mapper *m, const otx_node *node)
 bool
 otx_nodes_is_flat(const otx_mapper *m, const otx_node *node)
 {
-    const double side =
-        fmin(m->exemplar->match.width, m->exemplar->match.height);
+    const otx_image *image = &otx_supply_of(m, node)->exemplar->match;
+    const double side = fmin(image->width, image->height);
 
-    return otx_nodes_size(m, node) <= EXEMPLAR_SHARE * side &&
+    return otx_supply_is_pure(m, node) &&
+           otx_nodes_size(m, node) <= EXEMPLAR_SHARE * side &&
            node->chart.distortion <= m->settings.flatness &&
            node->chart.worst <= 2.0 * m->settings.flatness;
 }

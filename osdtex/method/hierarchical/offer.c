@@ -19,9 +19,8 @@ place(const otx_node *node, otx_vec2 flat)
 }
 
 static bool
-lands_inside(const otx_mapper *m, otx_vec2 p)
+lands_inside(const otx_exemplar *e, otx_vec2 p)
 {
-    const otx_exemplar *e = m->exemplar;
     const double w = e->match.width - 0.5, h = e->match.height - 0.5;
 
     return (e->wrap_x || (p.x >= 0.5 && p.x <= w)) &&
@@ -33,24 +32,30 @@ lands_inside(const otx_mapper *m, otx_vec2 p)
 static float
 offer_cost(const otx_mapper *m, const otx_node *node, int32_t i)
 {
+    const otx_supply *supply = otx_supply_of(m, node);
     const otx_chart *chart = &node->chart;
+    const float foreign = otx_supply_cost(m, node, chart->faces[i]);
     double s[2], turn = 0.0;
 
+    if (foreign < 0.0f)
+        return -1.0f;
     otx_chart_face_stretch(chart, m->surface, m->texels, i, s);
     if (i >= chart->core_count)
     {
         if (!(s[1] > 1.0 / OFFER_STRETCH) || s[0] > OFFER_STRETCH)
             return -1.0f;
         for (int32_t c = chart->first[i]; c < chart->first[i + 1]; ++c)
-            if (!lands_inside(m, place(node, chart->flat[chart->corners[c]])))
+            if (!lands_inside(
+                    supply->exemplar,
+                    place(node, chart->flat[chart->corners[c]])))
                 return -1.0f;
     }
-    if (m->request->guide)
+    if (supply->guide)
         turn = otx_follow_deviation(m, node, i);
     s[0] = fmax(s[0], 0.1);
     s[1] = fmax(s[1], 0.1);
-    return (
-        float)(log(s[0]) * log(s[0]) + log(s[1]) * log(s[1]) + TURN_COST * turn * turn);
+    return foreign +
+           (float)(log(s[0]) * log(s[0]) + log(s[1]) * log(s[1]) + TURN_COST * turn * turn);
 }
 
 typedef struct slot
@@ -105,7 +110,8 @@ make_offer(void *context, int64_t index, otx_worker *worker)
             uvs[n++] = place(node, chart->flat[chart->corners[c]]);
     }
     first[count] = n;
-    m->offers[patch] = (otx_offer){count, faces, uvs, first, cost};
+    m->offers[patch] =
+        (otx_offer){count, faces, uvs, first, cost, node->supply};
     return OSDTEX_OK;
 }
 
@@ -151,7 +157,7 @@ otx_offers_cut(otx_mapper *m, otx_cut_stats *stats)
     options.density = m->texels;
     options.sweeps = m->settings.sweeps;
     OTX_TRY(otx_cut_run(
-        m->run, m->surface, m->exemplar, m->offers, m->patch_count, &options,
+        m->run, m->surface, m->exemplars, m->offers, m->patch_count, &options,
         m->face_patch, stats));
     take_offers(m);
     return OSDTEX_OK;

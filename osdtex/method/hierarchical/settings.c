@@ -75,6 +75,11 @@ const otx_option otx_hierarchical_options[] = {
     {"guide", OTX_OPTION_CHOICE, FIELD(guide), 0, 0, 0, GUIDE,
      "auto: patches of an exemplar that has a direction follow a direction "
      "field on the surface, in mode best; off: none do"},
+    {"transition", OTX_OPTION_REAL, FIELD(transition), -1, 4096, -1, NULL,
+     "Of several exemplars: texels on either side of where one is asked for "
+     "beside another, within which the seam between them may run; beyond, "
+     "everything is as asked for; -1: an eighth of the first exemplar's "
+     "shorter side"},
 };
 
 _Static_assert(
@@ -125,6 +130,19 @@ choose(int32_t *setting, bool paper, int32_t of_paper, int32_t of_best)
 {
     if (*setting == OTX_HIERARCHICAL_AUTO)
         *setting = paper ? of_paper : of_best;
+}
+
+void
+otx_hierarchical_adapt(
+    otx_hierarchical_settings *s, const otx_exemplar *first,
+    const otx_exemplar *exemplar)
+{
+    if (s->patch == patch_size(first))
+        s->patch = patch_size(exemplar);
+    if (s->coarse == coarse_levels(first))
+        s->coarse = coarse_levels(exemplar);
+    if (s->tau == visible_error(first))
+        s->tau = visible_error(exemplar);
 }
 
 void

@@ -20,6 +20,7 @@ typedef struct shift
 {
     int32_t next; /* of the same vertex, -1 none */
     bool dropped;
+    const otx_exemplar *exemplar;
     otx_vec2 from, to;
 } shift;
 
@@ -117,9 +118,15 @@ plan_shift(straightener *s, int32_t face)
         return;
 
     const double share = (BEYOND - height) / length;
+    const otx_exemplar *exemplar =
+        &s->m->exemplars[otx_supply_of_patch(s->m, s->m->face_patch[face])];
 
     s->shifts[s->count] = (shift){
-        *head, false, from, {from.x - share * edge.y, from.y + share * edge.x}};
+        *head,
+        false,
+        exemplar,
+        from,
+        {from.x - share * edge.y, from.y + share * edge.x}};
     *head = s->count++;
 }
 
@@ -163,11 +170,10 @@ spare_others(straightener *s)
 static void
 stay_inside(straightener *s)
 {
-    const otx_exemplar *e = s->m->exemplar;
-
     for (int32_t i = 0; i < s->count; ++i)
     {
         shift *by = &s->shifts[i];
+        const otx_exemplar *e = by->exemplar;
 
         by->dropped |=
             (!e->wrap_x && !(by->to.x >= 0.0 && by->to.x <= e->match.width)) ||

@@ -54,6 +54,7 @@ flat_exemplar(otx_run *run, int32_t side, int32_t channels)
         otx_image_create(
             run, run->arena, side, side, channels, &exemplar->linear),
         OSDTEX_OK);
+    exemplar->match.width = exemplar->match.height = side;
     return exemplar;
 }
 

@@ -41,7 +41,7 @@ offer_rectangle(
             }
         }
     first[count] = 4 * count;
-    return (otx_offer){count, faces, uvs, first, NULL};
+    return (otx_offer){count, faces, uvs, first, NULL, 0};
 }
 
 static otx_cut_options

@@ -87,7 +87,12 @@ static void
 relax(scene *s, uint64_t seed)
 {
     const otx_nudge_request request = {
-        &s->surface, s->exemplar, DENSITY, s->patch, s->uvs, seed};
+        .surface = &s->surface,
+        .exemplar = s->exemplar,
+        .texels = DENSITY,
+        .face_patch = s->patch,
+        .uvs = s->uvs,
+        .seed = seed};
 
     assert_int_equal(
         otx_nudge_run(

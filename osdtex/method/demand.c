@@ -1,0 +1,269 @@
+/* demand.c -- which of several exemplars each leaf face is asked to show. */
+#include "method/demand.h"
+
+#include "method/density.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char STAGE[] = "mask";
+
+/* How far beyond the picture UVs may lie: rounding. */
+static const double UV_SLACK = 1e-4;
+
+/* "'a', 'b', 'c'" of the cage's materials; "..." for what has no room. */
+static void
+list_materials(const otx_cage *cage, char *text, size_t bytes)
+{
+    size_t at = 0;
+
+    text[0] = '\0';
+    for (int32_t i = 0; i < cage->material_count && at + 96 < bytes; ++i)
+        at += (size_t)snprintf(
+            text + at, bytes - at, "%s'%.60s'", i > 0 ? ", " : "",
+            cage->material_names[i]);
+    if (at + 96 >= bytes)
+        snprintf(text + at, bytes - at, ", ...");
+}
+
+static otx_status
+refuse_material(otx_run *run, const otx_cage *cage, const char *material)
+{
+    const otx_where where = {cage->path, 0, -1, -1};
+    char known[512];
+
+    if (!cage->face_material || cage->material_count == 0)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, where,
+            "no face has the material '%.60s': the cage has none (usemtl)",
+            material);
+    list_materials(cage, known, sizeof known);
+    return otx_fail(
+        run, OSDTEX_ERROR_ARGUMENT, STAGE, where,
+        "no face has the material '%.60s'; there are %s", material, known);
+}
+
+otx_status
+otx_demand_material(
+    otx_run *run, const otx_surface *surface, const char *material,
+    int32_t index, uint8_t *demand)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+    const otx_cage *cage = surface->cage;
+    bool found = false;
+
+    for (int32_t f = 0; cage->face_material && f < leaf->face_count; ++f)
+    {
+        const int32_t of = cage->face_material[leaf->face_cage[f]];
+
+        if (of < 0 || strcmp(cage->material_names[of], material) != 0)
+            continue;
+        demand[f] = (uint8_t)index;
+        found = true;
+    }
+    return found ? OSDTEX_OK : refuse_material(run, cage, material);
+}
+
+otx_status
+otx_demand_faces(
+    otx_run *run, const otx_surface *surface, const uint8_t *faces,
+    int32_t count, uint8_t *demand)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+
+    for (int32_t f = 0; f < surface->cage->face_count; ++f)
+        if (faces[f] >= count)
+            return otx_fail(
+                run, OSDTEX_ERROR_ARGUMENT, STAGE,
+                (otx_where){surface->cage->path, 0, f, -1},
+                "face %d asks for exemplar %d, but there are %d", (int)f,
+                faces[f] + 1, (int)count);
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        demand[f] = faces[leaf->face_cage[f]];
+    return OSDTEX_OK;
+}
+
+/* -- pictures ------------------------------------------------------------ */
+
+static void
+add_weights(const otx_image *mask, otx_vec2 uv, double weights[4])
+{
+    float color[OTX_IMAGE_MAX_CHANNELS];
+    double sum = 0.0;
+
+    otx_image_sample(
+        mask, false, false, (otx_vec2){uv.x * mask->width, uv.y * mask->height},
+        color);
+    for (int k = 0; k < 3; ++k)
+    {
+        const double w = fmin(fmax(color[k], 0.0), 1.0);
+
+        weights[k + 1] += w;
+        sum += w;
+    }
+    weights[0] += fmax(0.0, 1.0 - sum);
+}
+
+static otx_vec2
+corner_uv(const otx_surface *surface, int32_t corner)
+{
+    const float *uv = surface->uvs + 2 * (size_t)surface->face_uvs[corner];
+
+    return (otx_vec2){uv[0], uv[1]};
+}
+
+static bool
+is_in_picture(otx_vec2 uv)
+{
+    /* Written so that NaN is not. */
+    return uv.x >= -UV_SLACK && uv.x <= 1.0 + UV_SLACK && uv.y >= -UV_SLACK &&
+           uv.y <= 1.0 + UV_SLACK;
+}
+
+/* The exemplar that a leaf face asks for; -1 when a UV is not in the picture.
+ */
+static int32_t
+weigh_face(const otx_surface *surface, const otx_image *mask, int32_t face)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+    const int32_t first = leaf->face_first[face];
+    const int32_t size = otx_level_face_size(leaf, face);
+    double weights[4] = {0.0};
+    otx_vec2 middle = {0.0, 0.0};
+    int32_t best = 0;
+
+    for (int32_t c = first; c < first + size; ++c)
+    {
+        if (surface->face_uvs[c] < 0 || !is_in_picture(corner_uv(surface, c)))
+            return -1;
+        middle = otx_vec2_add(
+            middle, otx_vec2_scale(1.0 / size, corner_uv(surface, c)));
+    }
+    add_weights(mask, middle, weights);
+    /* Half way, since faces that share a corner share what it shows. */
+    for (int32_t c = first; c < first + size; ++c)
+        add_weights(
+            mask, otx_vec2_lerp(corner_uv(surface, c), middle, 0.5), weights);
+    for (int32_t k = 1; k < 4; ++k)
+        if (weights[k] > weights[best])
+            best = k;
+    return best;
+}
+
+static otx_status
+refuse_face(
+    otx_run *run, const otx_surface *surface, int32_t face, int32_t asked,
+    const char *path, int32_t count)
+{
+    static const char *const colours[] = {"black", "red", "green", "blue"};
+    const int32_t parent = otx_surface_leaf(surface)->face_cage[face];
+
+    if (asked < 0)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE,
+            (otx_where){surface->cage->path, 0, parent, -1},
+            "face %d has no UVs or such outside of 0 to 1, where the mask has "
+            "no picture; give all faces UVs in the unit square, or say it by "
+            "materials",
+            (int)parent);
+    return otx_fail(
+        run, OSDTEX_ERROR_ARGUMENT, STAGE, (otx_where){path, 0, parent, -1},
+        "the mask is %s on face %d and asks for exemplar %d, but there are %d",
+        colours[asked], (int)parent, (int)asked + 1, (int)count);
+}
+
+otx_status
+otx_demand_picture(
+    otx_run *run, const otx_surface *surface, const otx_image *mask,
+    const char *path, int32_t count, uint8_t *demand)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+
+    if (surface->uv_count == 0)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE,
+            (otx_where){surface->cage->path, 0, -1, -1},
+            "the cage has no UVs, so the mask '%.200s' lies nowhere; give it "
+            "UVs, or say where exemplars go by materials",
+            path);
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        const int32_t asked =
+            leaf->face_hole[f] ? 0 : weigh_face(surface, mask, f);
+
+        if (asked < 0 || asked >= count)
+            return refuse_face(run, surface, f, asked, path, count);
+        demand[f] = (uint8_t)asked;
+    }
+    return OSDTEX_OK;
+}
+
+/* -- constraints --------------------------------------------------------- */
+
+bool
+otx_demand_in(const otx_constraint_set *set)
+{
+    for (int32_t i = 0; set && i < set->count; ++i)
+        if (set->items[i].has_material)
+            return true;
+    return false;
+}
+
+static uint8_t
+nearest(double material, int32_t count)
+{
+    return (uint8_t)floor(material * (count - 1) + 0.5);
+}
+
+/* What faces of the cage ask for themselves, -1 nothing; the last holds. */
+static int32_t *
+list_asked(
+    otx_run *run, const otx_cage *cage, const otx_constraint_set *set,
+    int32_t count)
+{
+    int32_t *asked = OTX_NEW(run->scratch, int32_t, cage->face_count);
+
+    for (int32_t f = 0; asked && f < cage->face_count; ++f)
+        asked[f] = -1;
+    for (int32_t i = 0; asked && i < set->count; ++i)
+        if (set->items[i].has_material && set->items[i].face >= 0)
+            asked[set->items[i].face] = nearest(set->items[i].material, count);
+    return asked;
+}
+
+static double
+face_mean(const otx_level *leaf, int32_t face, const double *values)
+{
+    const int32_t size = otx_level_face_size(leaf, face);
+    double sum = 0.0;
+
+    for (int32_t k = 0; k < size; ++k)
+        sum += values[leaf->face_verts[leaf->face_first[face] + k]];
+    return sum / size;
+}
+
+otx_status
+otx_demand_constraints(
+    otx_run *run, const otx_surface *surface,
+    const otx_constraint_set *constraints, int32_t count, uint8_t *demand)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const otx_level *leaf = otx_surface_leaf(surface);
+    const int32_t *asked;
+    double *values;
+
+    OTX_TRY(otx_density_spread(
+        run, surface, constraints, OTX_CONSTRAINT_MATERIAL, &values));
+    asked = list_asked(run, surface->cage, constraints, count);
+    if (!asked)
+        return otx_fail_memory(run, STAGE);
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        const int32_t held = asked[leaf->face_cage[f]];
+
+        demand[f] = held >= 0 ? (uint8_t)held
+                              : nearest(face_mean(leaf, f, values), count);
+    }
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}

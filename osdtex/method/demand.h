@@ -1,0 +1,52 @@
+/* demand.h -- which of several exemplars each leaf face is asked to show.
+ *
+ * The artist says it by the cage's materials, by a picture on the cage's UVs,
+ * or face by face; each function writes over what was asked before where it
+ * has something to say. Exemplars count from 0, the first; in sentences they
+ * count from 1. See docs/notes/mask.md. */
+#ifndef OTX_METHOD_DEMAND_H
+#define OTX_METHOD_DEMAND_H
+
+#include "field/constraint.h"
+#include "image/image.h"
+
+/* Faces of a material of the cage show exemplar `index`. ARGUMENT when no face
+ * has it, with those that there are. */
+otx_status otx_demand_material(
+    otx_run *run, const otx_surface *surface, const char *material,
+    int32_t index, uint8_t *demand);
+
+/* Every face of the cage by a table.
+ *
+ *   faces  [cage face_count] indices below `count`
+ *
+ * ARGUMENT with the face. */
+otx_status otx_demand_faces(
+    otx_run *run, const otx_surface *surface, const uint8_t *faces,
+    int32_t count, uint8_t *demand);
+
+/* By a picture on the cage's UVs: where black (what red, green and blue leave
+ * of 1) weighs most the first exemplar, where red does the second, green the
+ * third, blue the fourth; of equal weights the first of these. A leaf face
+ * takes the sum of its corners and its middle.
+ *
+ *   mask   3 or 4 channels, of which the first three count
+ *   path   of the picture, for findings
+ *
+ * ARGUMENT for a cage without UVs, UVs outside of the picture, and colours
+ * that ask for an exemplar that is not there. */
+otx_status otx_demand_picture(
+    otx_run *run, const otx_surface *surface, const otx_image *mask,
+    const char *path, int32_t count, uint8_t *demand);
+
+/* Whether a set asks for materials. */
+bool otx_demand_in(const otx_constraint_set *constraints);
+
+/* By the materials among constraints, from 0, the first exemplar, to 1, the
+ * last: at faces of the cage as they say, elsewhere by what is interpolated
+ * between them. As otx_constraint_interpolate. */
+otx_status otx_demand_constraints(
+    otx_run *run, const otx_surface *surface,
+    const otx_constraint_set *constraints, int32_t count, uint8_t *demand);
+
+#endif
