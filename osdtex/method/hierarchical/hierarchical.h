@@ -156,6 +156,8 @@ const otx_supply *otx_supply_of(const otx_mapper *m, const otx_node *node);
 int32_t otx_supply_of_patch(const otx_mapper *m, int32_t patch);
 /* Whether all leaves of a node are asked for the one that it takes from. */
 bool otx_supply_is_pure(const otx_mapper *m, const otx_node *node);
+/* Whether a node reaches into the band around where the demand ends. */
+bool otx_supply_meets(const otx_mapper *m, const otx_node *node);
 /* What it costs in the cut that a node shows a leaf face; negative when it may
  * not. */
 float otx_supply_cost(const otx_mapper *m, const otx_node *node, int32_t face);

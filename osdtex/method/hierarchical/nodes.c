@@ -227,7 +227,7 @@ otx_nodes_collar(const otx_mapper *m, const otx_node *node)
     if (m->settings.cut != OTX_HIERARCHICAL_ON)
         return band;
     return fmax(
-        fmax(band, m->transition),
+        otx_supply_meets(m, node) ? fmax(band, m->transition) : band,
         fmin(COLLAR_MAXIMUM, m->settings.collar * otx_nodes_size(m, node)));
 }
 

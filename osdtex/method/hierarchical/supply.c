@@ -89,6 +89,15 @@ otx_supply_is_pure(const otx_mapper *m, const otx_node *node)
     return true;
 }
 
+bool
+otx_supply_meets(const otx_mapper *m, const otx_node *node)
+{
+    for (int32_t i = 0; m->away && i < node->leaf_count; ++i)
+        if (isfinite(m->away[node->leaves[i]]))
+            return true;
+    return false;
+}
+
 /* Relative to the squared strain that an offer costs elsewhere: over the whole
  * band it comes to a third of sigma per texel of the border, which is about
  * what a good seam saves. */

@@ -1,0 +1,237 @@
+/* test_demand.c -- what materials, pictures and constraints ask for. */
+#include "unit/cluster/sheets.h"
+
+#include "method/demand.h"
+
+#include <string.h>
+
+static otx_surface
+read_cage(otx_run *run, const char *name, int32_t level)
+{
+    char path[128];
+
+    snprintf(path, sizeof path, "models/cages/%s.obj", name);
+    return sheet_from_file(run, path, level);
+}
+
+static uint8_t *
+no_demand(otx_run *run, const otx_surface *surface)
+{
+    return OTX_ZNEW(run->arena, uint8_t, otx_surface_leaf(surface)->face_count);
+}
+
+static void
+expect_refused(otx_run *run, otx_status status, const char *words)
+{
+    assert_int_equal(status, OSDTEX_ERROR_ARGUMENT);
+    if (!strstr(test_last_message(run), words))
+        fail_msg("'%s' is not in: %s", words, test_last_message(run));
+}
+
+static void
+a_material_asks_for_its_faces(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_surface surface = read_cage(run, "materials_and_groups", 1);
+    const otx_cage *cage = surface.cage;
+    const otx_level *leaf = otx_surface_leaf(&surface);
+    uint8_t *demand = no_demand(run, &surface);
+    int32_t asked = 0;
+
+    (void)state;
+    assert_true(cage->material_count > 1);
+    assert_int_equal(
+        otx_demand_material(run, &surface, cage->material_names[1], 3, demand),
+        OSDTEX_OK);
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        const bool has = cage->face_material[leaf->face_cage[f]] == 1;
+
+        assert_int_equal(demand[f], has ? 3 : 0);
+        asked += has;
+    }
+    assert_true(asked > 0 && asked < leaf->face_count);
+    expect_refused(
+        run, otx_demand_material(run, &surface, "moss", 1, demand),
+        cage->material_names[0]);
+    test_run_destroy(run);
+}
+
+static void
+a_cage_without_materials_says_so(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_surface surface = read_cage(run, "sphere", 1);
+
+    (void)state;
+    expect_refused(
+        run,
+        otx_demand_material(run, &surface, "moss", 1, no_demand(run, &surface)),
+        "the cage has none");
+    test_run_destroy(run);
+}
+
+static void
+a_table_is_read_by_face(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_surface surface = read_cage(run, "sphere", 2);
+    const otx_level *leaf = otx_surface_leaf(&surface);
+    uint8_t *demand = no_demand(run, &surface);
+    uint8_t *faces = OTX_ZNEW(run->arena, uint8_t, surface.cage->face_count);
+
+    (void)state;
+    faces[2] = 1;
+    assert_int_equal(
+        otx_demand_faces(run, &surface, faces, 2, demand), OSDTEX_OK);
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        assert_int_equal(demand[f], leaf->face_cage[f] == 2);
+    faces[2] = 2;
+    expect_refused(
+        run, otx_demand_faces(run, &surface, faces, 2, demand),
+        "face 2 asks for exemplar 3");
+    test_run_destroy(run);
+}
+
+/* Left to right: black, red, green, blue, in equal stripes. */
+static otx_image
+stripes(otx_run *run, int32_t channels)
+{
+    otx_image image;
+
+    assert_int_equal(
+        otx_image_create(run, run->arena, 64, 8, channels, &image), OSDTEX_OK);
+    memset(image.pixels, 0, (size_t)(64 * 8 * channels) * sizeof *image.pixels);
+    for (int32_t y = 0; y < 8; ++y)
+        for (int32_t x = 16; x < 64; ++x)
+            otx_image_at(&image, x, y)[x / 16 - 1] = 1.0f;
+    return image;
+}
+
+static double
+middle_u(const otx_surface *surface, int32_t face)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+    double sum = 0.0;
+
+    for (int32_t c = leaf->face_first[face]; c < leaf->face_first[face + 1];
+         ++c)
+        sum += (double)surface->uvs[2 * surface->face_uvs[c]];
+    return sum / otx_level_face_size(leaf, face);
+}
+
+static void
+colours_ask_for_exemplars(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_surface surface = read_cage(run, "plane", 3);
+    const otx_level *leaf = otx_surface_leaf(&surface);
+    uint8_t *demand = no_demand(run, &surface);
+    bool seen[4] = {false};
+
+    (void)state;
+    for (int32_t channels = 3; channels <= 4; ++channels)
+    {
+        const otx_image image = stripes(run, channels);
+
+        assert_int_equal(
+            otx_demand_picture(run, &surface, &image, "mask.png", 4, demand),
+            OSDTEX_OK);
+        for (int32_t f = 0; f < leaf->face_count; ++f)
+        {
+            const double u = 4.0 * middle_u(&surface, f);
+
+            seen[demand[f]] = true;
+            if (fabs(u - round(u)) > 0.2)
+                assert_int_equal(demand[f], (int)floor(u));
+        }
+    }
+    assert_true(seen[0] && seen[1] && seen[2] && seen[3]);
+    test_run_destroy(run);
+}
+
+static void
+what_a_picture_cannot_ask_for_is_refused(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_surface plane = read_cage(run, "plane", 2);
+    const otx_surface sphere = read_cage(run, "sphere", 1);
+    otx_surface beyond = plane;
+    const otx_image image = stripes(run, 3);
+    float *uvs = OTX_NEW(run->arena, float, 2 * (size_t)plane.uv_count);
+
+    (void)state;
+    expect_refused(
+        run,
+        otx_demand_picture(
+            run, &plane, &image, "mask.png", 2, no_demand(run, &plane)),
+        "there are 2");
+    memcpy(uvs, plane.uvs, 2 * (size_t)plane.uv_count * sizeof *uvs);
+    beyond.uvs = uvs;
+    uvs[2 * plane.face_uvs[0]] = 1.5f;
+    expect_refused(
+        run,
+        otx_demand_picture(
+            run, &beyond, &image, "mask.png", 4, no_demand(run, &plane)),
+        "outside of 0 to 1");
+    uvs[2 * plane.face_uvs[0]] = NAN;
+    expect_refused(
+        run,
+        otx_demand_picture(
+            run, &beyond, &image, "mask.png", 4, no_demand(run, &plane)),
+        "outside of 0 to 1");
+    if (sphere.uv_count == 0)
+        expect_refused(
+            run,
+            otx_demand_picture(
+                run, &sphere, &image, "mask.png", 4, no_demand(run, &sphere)),
+            "has no UVs");
+    test_run_destroy(run);
+}
+
+/* Faces that are named show what they ask for; others what lies between. */
+static void
+materials_of_constraints_divide_the_surface(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_surface surface = read_cage(run, "plane", 2);
+    const otx_level *leaf = otx_surface_leaf(&surface);
+    const int32_t last = surface.cage->face_count - 1;
+    const otx_constraint items[] = {
+        {.face = 0, .has_material = true, .material = 0.0},
+        {.face = last, .has_material = true, .material = 1.0}};
+    const otx_constraint_set set = {.count = 2, .items = items};
+    uint8_t *demand = no_demand(run, &surface);
+    bool seen[3] = {false};
+
+    (void)state;
+    assert_false(otx_demand_in(NULL));
+    assert_true(otx_demand_in(&set));
+    assert_int_equal(
+        otx_demand_constraints(run, &surface, &set, 3, demand), OSDTEX_OK);
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        seen[demand[f]] = true;
+        if (leaf->face_cage[f] == 0)
+            assert_int_equal(demand[f], 0);
+        if (leaf->face_cage[f] == last)
+            assert_int_equal(demand[f], 2);
+    }
+    assert_true(seen[0] && seen[1] && seen[2]);
+    test_run_destroy(run);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_material_asks_for_its_faces),
+        cmocka_unit_test(a_cage_without_materials_says_so),
+        cmocka_unit_test(a_table_is_read_by_face),
+        cmocka_unit_test(colours_ask_for_exemplars),
+        cmocka_unit_test(what_a_picture_cannot_ask_for_is_refused),
+        cmocka_unit_test(materials_of_constraints_divide_the_surface),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
