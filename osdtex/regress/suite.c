@@ -77,7 +77,41 @@ typedef struct choice
     const char *cage, *exemplar, *method;
     const char *option_name, *options;
     json_t *tiles; /* NULL none */
+    json_t *also;  /* list of [MATERIAL=]FILE, NULL none */
+    const char *mask;
 } choice;
+
+/* The same for "[MATERIAL=]FILE". */
+static json_t *
+also_from_here(const otx_suite *suite, const char *text)
+{
+    const char *equals = strchr(text, '=');
+    const char *file = equals ? equals + 1 : text;
+    json_t *path = seen_from_here(suite, file);
+    json_t *word = json_sprintf(
+        "%.*s%s", (int)(file - text), text, json_string_value(path));
+
+    json_decref(path);
+    return word;
+}
+
+/* What divides the surface between exemplars. */
+static void
+add_several(const otx_suite *suite, const choice *c, json_t *item)
+{
+    json_t *list = c->also ? json_array() : NULL, *text;
+    size_t i;
+
+    json_array_foreach(c->also, i, text)
+    {
+        json_array_append_new(
+            list, also_from_here(suite, json_string_value(text)));
+    }
+    if (list)
+        json_object_set_new(item, "also", list);
+    if (c->mask)
+        json_object_set_new(item, "mask", seen_from_here(suite, c->mask));
+}
 
 static bool
 add_case(otx_suite *suite, const choice *c, char *error)
@@ -101,6 +135,7 @@ add_case(otx_suite *suite, const choice *c, char *error)
         c->options);
     if (c->tiles)
         json_object_set(item, "tiles", c->tiles);
+    add_several(suite, c, item);
     if (json_object_set_new(suite->cases, name, item) == 0)
         return true;
     return refuse(error, "memory ran out");
@@ -163,10 +198,11 @@ add_row(otx_suite *suite, json_t *row, size_t index, char *error)
         cages ? texts_of(row, "exemplars", index, error) : NULL;
     const json_t *methods =
         exemplars ? texts_of(row, "methods", index, error) : NULL;
+    json_t *also = json_object_get(row, "also");
     json_t *cage, *exemplar, *method;
     size_t i, k, m;
 
-    if (!methods)
+    if (!methods || (also && !texts_of(row, "also", index, error)))
         return false;
     json_array_foreach(cages, i, cage)
     {
@@ -179,6 +215,8 @@ add_row(otx_suite *suite, json_t *row, size_t index, char *error)
                     .exemplar = json_string_value(exemplar),
                     .method = json_string_value(method),
                     .tiles = json_object_get(row, "tiles"),
+                    .also = also,
+                    .mask = json_string_value(json_object_get(row, "mask")),
                 };
 
                 if (!add_options(suite, row, c, error))

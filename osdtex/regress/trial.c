@@ -184,6 +184,26 @@ make_tiles(trial *t, char path[OTX_SUITE_PATH_BYTES])
     return run_words(t, &words, &cpu);
 }
 
+/* The exemplars beside the first, and where they go. */
+static void
+add_several(const trial *t, otx_process_words *words)
+{
+    const char *mask = otx_suite_text(t->item, "mask");
+    json_t *text;
+    size_t i;
+
+    json_array_foreach(json_object_get(t->item, "also"), i, text)
+    {
+        otx_process_add(words, "--also");
+        otx_process_add(words, json_string_value(text));
+    }
+    if (mask)
+    {
+        otx_process_add(words, "--mask");
+        otx_process_add(words, mask);
+    }
+}
+
 static bool
 map(trial *t)
 {
@@ -203,6 +223,7 @@ map(trial *t)
     add_output(t, &words, "model.obj");
     otx_process_add(&words, "--method");
     otx_process_add(&words, otx_suite_text(t->item, "method"));
+    add_several(t, &words);
     otx_process_add_text(&words, otx_suite_text(t->item, "options"));
     snprintf(text, sizeof text, "%d", threads);
     otx_process_add(&words, "--threads");

@@ -24,6 +24,8 @@ class Tables(SuiteTest):
                 ("{", "table.json:1: "), ("{}", 'has no "rows"'),
                 ('{"rows": [{}]}', 'row 0 has no "cages"'),
                 ('{"rows": [{"cages": [1]}]}', "number 0 is no text"),
+                (json.dumps({"rows": [{**TILE, "also": [1]}]}),
+                 'in "also", number 0 is no text'),
                 (json.dumps({"rows": [TILE, TILE]}), "two cases are called")):
             suite = self.write_table(TILE)
             (suite / "table.json").write_text(table)
