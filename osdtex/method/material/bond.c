@@ -186,7 +186,7 @@ write_face(otx_material *m, const otx_strips *s, int32_t face)
 }
 
 otx_status
-otx_courses_lay(otx_material *m)
+otx_coursing_lay(otx_material *m)
 {
     const otx_arena_mark mark = otx_arena_here(m->run->scratch);
     otx_strip_tears tears;

@@ -1,6 +1,6 @@
 /* material.c -- fields, periodic coordinates, UVs [Ray09, sec. 2].
  */
-#include "method/material/courses.h"
+#include "method/material/coursing.h"
 
 #include <string.h>
 
@@ -16,7 +16,7 @@ choose_lattice(otx_material *m)
             m->run, &m->exemplar->lab, m->exemplar->wrap_x, m->exemplar->wrap_y,
             &m->analysis));
     if (m->analysis.kind != OTX_ANALYSIS_LATTICE &&
-        m->settings->courses != OTX_COURSES_ON)
+        m->settings->courses != OTX_COURSING_ON)
         return otx_fail(
             m->run, OSDTEX_ERROR_SUPPORT, "map",
             (otx_where){m->exemplar->source_path, 0, -1, -1},
@@ -46,7 +46,7 @@ solve_field(otx_material *m)
         request.symmetry = 2; /* coordinates do not change places */
     OTX_TRY(otx_nested_solve(m->run, &m->connection, &request, &m->field));
     if (m->courses.count > 0 && request.pin_count == 0 && !request.pull)
-        otx_courses_turn(m);
+        otx_coursing_turn(m);
     OTX_TRY(otx_scale_solve(
         m->run, &m->field,
         m->courses.count > 0 ? 0.0 : m->settings->octaves * log(2.0),
@@ -164,7 +164,7 @@ lay_uvs(otx_material *m)
     OTX_TRY(refine_cells(m, &m->cells));
     otx_refill_clear(m);
     if (m->courses.count > 0)
-        OTX_TRY(otx_courses_lay(m));
+        OTX_TRY(otx_coursing_lay(m));
     OTX_TRY(otx_refill_choose(m));
     OTX_TRY(otx_label_windows(m, m->open, m->cells));
     OTX_TRY(otx_label_patches(
@@ -211,7 +211,7 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     };
 
     OTX_TRY(choose_lattice(&m));
-    OTX_TRY(otx_courses_choose(&m));
+    OTX_TRY(otx_coursing_choose(&m));
     otx_map_stats_stage(stats, "field");
     OTX_TRY(solve_field(&m));
     otx_map_stats_stage(stats, "phase");

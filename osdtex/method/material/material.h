@@ -20,9 +20,9 @@
 
 enum
 {
-    OTX_COURSES_AUTO,
-    OTX_COURSES_ON,
-    OTX_COURSES_OFF
+    OTX_COURSING_AUTO,
+    OTX_COURSING_ON,
+    OTX_COURSING_OFF
 };
 
 /* Meaning, range and default of each: the table in settings.c. */

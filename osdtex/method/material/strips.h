@@ -7,7 +7,7 @@
 #ifndef OTX_METHOD_MATERIAL_STRIPS_H
 #define OTX_METHOD_MATERIAL_STRIPS_H
 
-#include "method/material/courses.h"
+#include "method/material/coursing.h"
 
 typedef struct otx_strip
 {

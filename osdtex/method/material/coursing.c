@@ -1,5 +1,5 @@
-/* courses.c -- whether an exemplar is laid course by course, and which way. */
-#include "method/material/courses.h"
+/* coursing.c -- whether an exemplar is laid course by course, and which way. */
+#include "method/material/coursing.h"
 
 /* Lattices that hold together along their courses are laid as a whole. */
 static const double LOOSE = 0.3;
@@ -10,7 +10,7 @@ static const double CLEARLY = 1.1;
 /* Whether the exemplar is laid course by course; its cell then is a course of
  * the whole picture's length. */
 otx_status
-otx_courses_choose(otx_material *m)
+otx_coursing_choose(otx_material *m)
 {
     const otx_exemplar *e = m->exemplar;
     const int32_t wish = m->settings->courses;
@@ -18,20 +18,20 @@ otx_courses_choose(otx_material *m)
     otx_courses found;
     double height;
 
-    if (wish == OTX_COURSES_OFF)
+    if (wish == OTX_COURSING_OFF)
         return OSDTEX_OK;
     if (e->wrap_x && e->wrap_y)
         OTX_TRY(otx_courses_find(m->run, &e->lab, &found));
     else
         found.count = 0;
-    if (wish == OTX_COURSES_ON && found.count == 0)
+    if (wish == OTX_COURSING_ON && found.count == 0)
         return otx_fail(
             m->run, OSDTEX_ERROR_SUPPORT, "map",
             (otx_where){e->source_path, 0, -1, -1},
             "courses are asked for, and the exemplar has none that repeat "
             "across a picture that tiles; try --tileable make, or leave out "
             "courses=on");
-    if (wish == OTX_COURSES_AUTO &&
+    if (wish == OTX_COURSING_AUTO &&
         !(otx_courses_are_plain(&found) && m->analysis.contrast < LOOSE))
         return OSDTEX_OK;
     m->courses = found;
@@ -77,7 +77,7 @@ split_turn(const otx_direction *field, double *along, double *across)
 }
 
 void
-otx_courses_turn(otx_material *m)
+otx_coursing_turn(otx_material *m)
 {
     const otx_vec2 quarter =
         m->field.symmetry == 2 ? (otx_vec2){-1, 0} : (otx_vec2){0, 1};
