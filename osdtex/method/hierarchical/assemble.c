@@ -145,6 +145,7 @@ otx_assemble(otx_mapper *m, otx_mapping *out)
     if (!out->uvs || !out->face_patch)
         return otx_fail_memory(m->run, "map");
     OTX_TRY(otx_straighten(m));
+    otx_unfold(m);
     OTX_TRY(write_uvs(m, out));
     return number_patches(m, out);
 }

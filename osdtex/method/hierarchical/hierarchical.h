@@ -250,6 +250,10 @@ otx_follow_deviation(const otx_mapper *m, const otx_node *node, int32_t i);
  * far as no other face suffers. */
 otx_status otx_straighten(otx_mapper *m);
 
+/* unfold.c: gives each face with area that is reversed, or has a corner that
+ * is, its own shape and a patch of its own. */
+void otx_unfold(otx_mapper *m);
+
 /* band.c: cuts a mask triangle where it leaves the band.
  *
  *   reach  of its corners, in the unit of limit
