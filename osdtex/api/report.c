@@ -249,6 +249,7 @@ put_lattice(json_t *mapping, const otx_map_stats *stats)
 
     set_int(l, "faces", stats->lattice_faces);
     set_int(l, "singular_faces", stats->singular_faces);
+    set_int(l, "singular_rings", stats->singular_rings);
     set_int(l, "cancelled", stats->cancelled);
     set_real(l, "clean_area_share", stats->clean_share);
     set_real(l, "filled_area_share", stats->filled_share);

@@ -40,6 +40,7 @@ typedef struct otx_map_stats
     /* Of periodic coordinates; lattice_faces 0: the method has none. */
     int32_t lattice_faces;  /* that were solved on */
     int32_t singular_faces; /* of them that hold a dislocation */
+    int32_t singular_rings; /* of faces round a vertex, by both criteria */
     int32_t cancelled;      /* dislocations that were made to vanish */
     double clean_share;     /* of the area, over a cell from any */
     double filled_share;    /* of the area, covered by patches */

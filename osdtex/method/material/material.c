@@ -82,6 +82,7 @@ solve_phases(otx_material *m)
     if (m->courses.count > 0)
         request.gradient[0] = (otx_vec2){0, 0};
     OTX_TRY(otx_phase_solve(m->run, &request, &m->phase));
+    OTX_TRY(otx_rings_find(m->run, &m->phase, &request, &m->rings));
     OTX_TRY(otx_phase_distance(
         m->run, &m->connection, m->phase.defect, &m->distance));
     return otx_phase_unwrap(m->run, &m->phase, m->distance);

@@ -15,7 +15,7 @@
 #include "field/singularity.h"
 #include "image/analysis.h"
 #include "image/courses.h"
-#include "method/material/phase.h"
+#include "method/material/rings.h"
 #include "method/method.h"
 
 enum
@@ -63,6 +63,7 @@ typedef struct otx_material
     otx_direction field;
     double *log_scale; /* [vert_count] */
     otx_phase phase;
+    otx_rings rings;
     double *distance; /* [face_count] from the nearest defect, scene units */
 
     int32_t *face_patch; /* [leaf face_count] */

@@ -125,10 +125,24 @@ note_stats(const otx_material *m, double clean, double filled)
 {
     m->stats->lattice_faces = m->connection.level->face_count;
     m->stats->singular_faces = m->phase.defect_count;
+    m->stats->singular_rings = m->rings.count;
     m->stats->cancelled = m->phase.cancelled;
     m->stats->gradient_error = m->phase.error;
     m->stats->clean_share = clean;
     m->stats->filled_share = filled;
+}
+
+static bool
+in_singular_ring(const otx_material *m, int32_t leaf_face)
+{
+    const otx_level *level = m->connection.level;
+    const int32_t face = otx_material_solved_face(m, leaf_face);
+
+    for (int32_t i = level->face_first[face]; i < level->face_first[face + 1];
+         ++i)
+        if (m->rings.singular[level->face_verts[i]])
+            return true;
+    return false;
 }
 
 void
@@ -138,8 +152,9 @@ otx_refill_clear(otx_material *m)
 
     for (int32_t f = 0; f < leaf->face_count; ++f)
         m->open[f] = m->settings->fill && !leaf->face_hole[f] &&
-                     m->distance[otx_material_solved_face(m, f)] <=
-                         m->settings->clear * m->cell;
+                     (in_singular_ring(m, f) ||
+                      m->distance[otx_material_solved_face(m, f)] <=
+                          m->settings->clear * m->cell);
 }
 
 otx_status

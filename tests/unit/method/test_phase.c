@@ -1,6 +1,6 @@
 /* test_phase.c -- periodic coordinates where the answer is known. */
 #include "field/attract.h"
-#include "method/material/phase.h"
+#include "method/material/rings.h"
 #include "unit/field/test_field.h"
 
 /* Coordinates of the whole surface along the field that `q` asks for. */
@@ -36,6 +36,61 @@ solve(
     double cell)
 {
     return solve_with(run, s, q, cell, 1.5 * cell);
+}
+
+/* Both criteria by rings, on what `solve` made of a flat field. */
+static otx_rings
+find_rings(
+    otx_run *run, const field_surface *s, const otx_phase *phase,
+    const otx_direction *field, double cell)
+{
+    const otx_phase_request request = {
+        .field = field,
+        .log_scale =
+            OTX_ZNEW(run->arena, double, s->connection.level->vert_count),
+        .gradient = {{1.0 / cell, 0}, {0, 1.0 / cell}}};
+    otx_rings rings;
+
+    assert_int_equal(otx_rings_find(run, phase, &request, &rings), OSDTEX_OK);
+    return rings;
+}
+
+/* Sound coordinates have no singular ring; a face that is squeezed makes its
+ * corners' rings so by both criteria, and one that is only shifted by whole
+ * cells by none. */
+static void
+singular_rings_are_found(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_cage_input in = mesh_grid(run, 6);
+    const field_surface *s = field_from_input(run, &in, 2);
+    const otx_level *level = s->connection.level;
+    const otx_direction_request q = {.symmetry = 2, .pull_length = 1.0};
+    const double cell = 1.3;
+    const int32_t face = level->face_count / 2;
+    otx_phase phase = solve(run, s, &q, cell);
+    otx_direction field;
+    otx_rings rings;
+
+    (void)state;
+    assert_int_equal(
+        otx_direction_solve(run, &s->connection, &q, &field), OSDTEX_OK);
+    assert_int_equal(find_rings(run, s, &phase, &field, cell).count, 0);
+    for (int32_t i = level->face_first[face]; i < level->face_first[face + 1];
+         ++i)
+        phase.cells[i].x += 3.0;
+    assert_int_equal(find_rings(run, s, &phase, &field, cell).count, 0);
+    for (int32_t i = level->face_first[face]; i < level->face_first[face + 1];
+         ++i)
+        phase.cells[i].x *= 0.2;
+    rings = find_rings(run, s, &phase, &field, cell);
+    assert_int_equal(rings.count, 4);
+    for (int32_t i = level->face_first[face]; i < level->face_first[face + 1];
+         ++i)
+        assert_int_equal(
+            rings.singular[level->face_verts[i]],
+            OTX_RING_DISTORTED | OTX_RING_MISMATCHED);
+    test_run_destroy(run);
 }
 
 /* On a plane the coordinates are the plane's, up to a shift. */
@@ -200,6 +255,7 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(singular_rings_are_found),
         cmocka_unit_test(a_plane_gets_its_own_coordinates),
         cmocka_unit_test(neighbours_agree_up_to_whole_cells),
         cmocka_unit_test(a_torus_has_few_defects),
