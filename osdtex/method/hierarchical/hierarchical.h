@@ -136,7 +136,8 @@ typedef struct otx_mapper
     double total_area;
 
     /* Of several exemplars; else NULL. */
-    uint8_t *patch_exemplar; /* [leaf face_count] by patch */
+    uint8_t *patch_exemplar; /* [2 leaf face_count] by patch: fitted ones, and
+                              * those of unfolded faces */
     double *away;      /* [leaf face_count] texels from where the demand ends,
                         * INFINITY beyond `transition` */
     double transition; /* texels from there within which seams may run */

@@ -53,7 +53,8 @@ otx_supply_prepare(otx_mapper *m)
     if (!m->request->demand)
         return OSDTEX_OK;
     m->transition = transition(m);
-    m->patch_exemplar = OTX_ZNEW(m->run->arena, uint8_t, leaf->face_count);
+    m->patch_exemplar =
+        OTX_ZNEW(m->run->arena, uint8_t, 2 * (int64_t)leaf->face_count);
     m->away = OTX_NEW(m->run->arena, double, leaf->face_count);
     if (!m->patch_exemplar || !m->away)
         return otx_fail_memory(m->run, "map");

@@ -112,9 +112,8 @@ kept_inside(double middle, double low, double high, double side)
 }
 
 static otx_vec2
-place_sheet(const otx_mapper *m, const sheet *s, otx_vec2 middle)
+place_sheet(const otx_exemplar *e, const sheet *s, otx_vec2 middle)
 {
-    const otx_exemplar *e = m->exemplar;
     otx_vec2 low = {0, 0}, high = {0, 0};
 
     for (int32_t k = 0; k < s->size; ++k)
@@ -137,6 +136,7 @@ otx_unfold(otx_mapper *m)
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {
         otx_vec2 middle;
+        int32_t supply;
         sheet s;
 
         if (m->face_patch[f] < 0 ||
@@ -147,9 +147,12 @@ otx_unfold(otx_mapper *m)
         if (!is_folded(&s))
             continue;
         fit_sheet(&s);
-        middle = place_sheet(m, &s, middle);
+        supply = otx_supply_of_patch(m, m->face_patch[f]);
+        middle = place_sheet(&m->exemplars[supply], &s, middle);
         for (int32_t k = 0; k < s.size; ++k)
             m->uvs[leaf->face_first[f] + k] = otx_vec2_add(middle, s.q[k]);
+        if (m->patch_exemplar)
+            m->patch_exemplar[m->patch_count] = (uint8_t)supply;
         m->face_patch[f] = m->patch_count++;
     }
 }

@@ -40,7 +40,11 @@ folded_faces_get_their_own_shape(void **state)
         const otx_cage_input in = mesh_cube(run);
         const field_surface *s = field_from_input(run, &in, 2);
         otx_exemplar e = {.wrap_x = wrap == 1, .wrap_y = wrap == 1};
-        otx_mapper m = {.run = run, .surface = &s->surface, .exemplar = &e};
+        otx_mapper m = {
+            .run = run,
+            .surface = &s->surface,
+            .exemplars = &e,
+            .supply_count = 1};
         const otx_level *leaf;
         otx_vec2 kept[4];
 
