@@ -278,6 +278,36 @@ place_first(
            (e->wrap_y || high.y - low.y <= h - 1.0);
 }
 
+/* Orientations to search, into angles[360]; how many. Drawn at random, so that
+ * the exact continuation of a single neighbour is not among them unless it is
+ * wanted [Soler02, sec. 4.2]; within `drift` of what continues the neighbours,
+ * so that the first patch's direction spreads. */
+static int32_t
+list_angles(
+    const otx_mapper *m, int32_t index, const otx_mask *mask, double *angles)
+{
+    const otx_node *node = &m->nodes[index];
+    const otx_supply *supply = otx_supply_of(m, node);
+    const otx_hierarchical_settings *s = &supply->settings;
+    const double continuing = otx_continuation_angle(mask);
+    const double chance =
+        otx_random_unit(m->run->seed, STAGE_ANGLE, (uint64_t)index * 64u);
+    const double drift = s->drift * OTX_PI / 180.0;
+
+    if (supply->guide)
+        return otx_follow_angles(m, node, continuing, angles);
+    for (int32_t k = 0; k < s->angles; ++k)
+        if (drift >= OTX_PI)
+            angles[k] = (s->continuation ? continuing : 2.0 * OTX_PI * chance) +
+                        2.0 * OTX_PI * k / s->angles;
+        else
+            angles[k] = continuing +
+                        drift * (2.0 * (k + (s->continuation ? 0.5 : chance)) /
+                                     s->angles -
+                                 1.0);
+    return s->angles;
+}
+
 static otx_status
 search(
     const otx_mapper *m, const trial *t, const otx_mask *mask, otx_match *best,
@@ -286,19 +316,10 @@ search(
     const otx_node *node = &m->nodes[t->index];
     const otx_supply *supply = otx_supply_of(m, node);
     const otx_hierarchical_settings *s = &supply->settings;
-    const double start = s->continuation ? otx_continuation_angle(mask)
-                                         : 2.0 * OTX_PI *
-                                               otx_random_unit(
-                                                   m->run->seed, STAGE_ANGLE,
-                                                   (uint64_t)t->index * 64u);
     double angles[360];
-    otx_match_query query = otx_match_query_defaults(angles, s->angles);
+    otx_match_query query = otx_match_query_defaults(
+        angles, list_angles(m, t->index, mask, angles));
 
-    for (int32_t k = 0; k < s->angles; ++k)
-        angles[k] = start + 2.0 * OTX_PI * k / s->angles;
-    if (supply->guide)
-        query.angle_count =
-            otx_follow_angles(m, node, otx_continuation_angle(mask), angles);
     query.coarse_levels = s->coarse;
     query.coarse_keep = s->keep;
     query.gauss_newton = s->mode == OTX_HIERARCHICAL_BEST;

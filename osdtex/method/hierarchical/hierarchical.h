@@ -44,6 +44,7 @@ typedef struct otx_hierarchical_settings
     int32_t flatten;
     double flatness;
     int32_t angles;
+    double drift;         /* degrees */
     int32_t continuation; /* 0 avoid, 1 allow */
     int32_t coarse;       /* -1 auto */
     int32_t keep;
@@ -64,7 +65,7 @@ typedef struct otx_hierarchical_settings
 extern const otx_option otx_hierarchical_options[];
 enum
 {
-    OTX_HIERARCHICAL_OPTION_COUNT = 21
+    OTX_HIERARCHICAL_OPTION_COUNT = 22
 };
 
 /* Replaces every "auto" by what it means for this mode and exemplar. */

@@ -33,8 +33,13 @@ const otx_option otx_hierarchical_options[] = {
      "RMS stretch above which a cluster is split before it is mapped, of "
      "recursive flattening 1 + E_flat; 1 is isometric, 0 follows mode (best "
      "1.2, paper 1.12)"},
-    {"angles", OTX_OPTION_INTEGER, FIELD(angles), 1, 360, 19, NULL,
-     "Orientations tried for each patch"},
+    {"angles", OTX_OPTION_INTEGER, FIELD(angles), 0, 360, 0, NULL,
+     "Orientations tried for each patch; 0: 9 for a drift of less than 90, "
+     "else 19"},
+    {"drift", OTX_OPTION_REAL, FIELD(drift), 0, 180, 0, NULL,
+     "Degrees by which a patch may be turned against those that it continues, "
+     "so that the first one's direction spreads; 180 any, 0 follows mode (best "
+     "25, paper 180)"},
     {"continuation", OTX_OPTION_CHOICE, FIELD(continuation), 0, 0, 0,
      CONTINUATION,
      "allow: a patch may continue its neighbour's chart exactly, which shows "
@@ -108,7 +113,7 @@ coarse_levels(const otx_exemplar *exemplar)
 static double
 patch_size(const otx_exemplar *exemplar)
 {
-    const double share = exemplar->wrap_x && exemplar->wrap_y ? 0.5 : 0.38;
+    const double share = exemplar->wrap_x && exemplar->wrap_y ? 0.65 : 0.5;
 
     return share * fmin(exemplar->match.width, exemplar->match.height);
 }
@@ -162,6 +167,10 @@ otx_hierarchical_resolve(
         OTX_HIERARCHICAL_RELAX_GLOBAL);
     if (paper)
         s->guide = OTX_HIERARCHICAL_OFF;
+    if (s->drift == 0.0)
+        s->drift = paper ? 180.0 : 25.0;
+    if (s->angles == 0)
+        s->angles = s->drift < 90.0 ? 9 : 19;
     if (s->usage < 0.0)
         s->usage = paper ? 0.0 : 0.5;
     /* The cut takes over the ends of a bent patch, relaxation evens it out: of
