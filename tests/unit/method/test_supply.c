@@ -254,6 +254,47 @@ the_same_bytes_from_any_number_of_threads(void **state)
     test_run_destroy(first->run);
 }
 
+/* Nothing where an exemplar is asked for; elsewhere from nothing at the border
+ * to a third of sigma a texel over the band, in the unit of strain; beyond, no
+ * price is enough. */
+static void
+straying_costs_more_the_farther(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_mapper *m = OTX_ZNEW(run->arena, otx_mapper, 1);
+    const double band = 8.0, sigma = 0.4;
+    const otx_exemplar exemplar = {.match_sigma = sigma};
+    const uint8_t demand[] = {0, 0, 0, 0, 0, 1};
+    double away[] = {0.0, 2.0, 4.0, 7.9, 8.0, 3.0};
+    const otx_map_request request = {.demand = demand, .exemplar_count = 2};
+    const otx_node node = {.supply = 1};
+    const double distortion = otx_cut_options_default().distortion;
+    double sum = 0.0;
+
+    (void)state;
+    m->exemplars = &exemplar;
+    m->request = &request;
+    m->away = away;
+    m->transition = band;
+    assert_true(otx_supply_cost(m, &node, 0) == 0.0f);
+    for (int f = 1; f < 4; ++f)
+        assert_true(
+            otx_supply_cost(m, &node, f) > otx_supply_cost(m, &node, f - 1));
+    assert_true(otx_supply_cost(m, &node, 4) < 0.0f);
+    assert_true(otx_supply_cost(m, &node, 5) == 0.0f);
+    for (int i = 0; i < 1000; ++i)
+    {
+        away[0] = band * (i + 0.5) / 1000.0;
+        sum +=
+            distortion * (double)otx_supply_cost(m, &node, 0) * band / 1000.0;
+    }
+    assert_true(fabs(sum - sigma / 3.0) < 1e-3 * sigma);
+    m->transition = 0.0;
+    away[0] = 0.0;
+    assert_true(otx_supply_cost(m, &node, 0) < 0.0f);
+    test_run_destroy(run);
+}
+
 /* Transitions are told apart from seams, and shares add up. */
 static void
 measures_tell_exemplars_apart(void **state)
@@ -305,6 +346,7 @@ main(void)
         cmocka_unit_test(without_a_band_or_a_cut_seams_keep_to_the_border),
         cmocka_unit_test(a_single_one_of_several_is_a_single_one),
         cmocka_unit_test(the_same_bytes_from_any_number_of_threads),
+        cmocka_unit_test(straying_costs_more_the_farther),
         cmocka_unit_test(measures_tell_exemplars_apart),
         cmocka_unit_test(other_methods_take_one),
     };
