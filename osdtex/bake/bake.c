@@ -180,6 +180,34 @@ color_channels(const otx_exemplar *exemplars, int32_t count)
     return most;
 }
 
+/* Of all exemplars, channel by channel. What one without alpha lacks is 1. */
+static void
+find_range(
+    const otx_exemplar *exemplars, int32_t count, int32_t channels, float *low,
+    float *high)
+{
+    for (int32_t c = 0; c < channels; ++c)
+    {
+        low[c] = INFINITY;
+        high[c] = -INFINITY;
+        for (int32_t k = 0; k < count; ++k)
+        {
+            const otx_image *image = &exemplars[k].linear;
+            const int64_t texels = (int64_t)image->width * image->height;
+
+            for (int64_t i = 0; i < texels; ++i)
+            {
+                const float value = c < image->channels
+                                        ? image->pixels[i * image->channels + c]
+                                        : 1.0f;
+
+                low[c] = value < low[c] ? value : low[c];
+                high[c] = value > high[c] ? value : high[c];
+            }
+        }
+    }
+}
+
 otx_status
 otx_bake_create(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
@@ -199,6 +227,10 @@ otx_bake_create(
                             ? color_channels(exemplars, count)
                             : 3,
         }};
+    if (options->kind == OTX_TEXEL_COLOR)
+        find_range(
+            exemplars, count, out->source.channels, out->source.low,
+            out->source.high);
     for (int32_t k = 0; k < count; ++k)
         OTX_TRY(otx_texture_create(
             run, run->arena, &exemplars[k].linear, exemplars[k].wrap_x,

@@ -13,7 +13,7 @@
 enum
 {
     OTX_PAGE_BLOCK = 64, /* texels, that of the files */
-    OTX_PAGE_APRON = 1   /* texels around a block that are looked at, too */
+    OTX_PAGE_APRON = 2   /* texels around a block that are looked at, too */
 };
 
 /* An edge that the texture ends at, or where patches meet. */

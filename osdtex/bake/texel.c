@@ -7,7 +7,7 @@
  * walk from the nearest rim ends, and far beyond, the rim itself. */
 #include "bake/texel.h"
 
-#include "bake/sharpen.h"
+#include "bake/join.h"
 #include "mapping/source.h"
 
 #include <string.h>
@@ -26,6 +26,11 @@ enum
  * rounding, and the bend of a curved surface within a texel. */
 static const double AGREED = 0.0625;
 
+/* Squared distance from a rim of what its texels look at: one from the rim, one
+ * from the texels of a lookup on it and one from what sharpens these, the
+ * latter two across corners. */
+static const float RIM_APRON_SQ = 12.0f;
+
 /* A block at work, with an apron of texels around it. */
 typedef struct block
 {
@@ -34,7 +39,7 @@ typedef struct block
     int32_t width, height; /* without the apron */
     int32_t left, below;   /* of the apron; 0 at the picture's border */
     otx_raster raster;     /* with it */
-    float *pixels;         /* likewise */
+    float *pixels, *sharp; /* likewise; those that are sharpened */
     int32_t *owners;       /* charts, -1 beyond the rims */
     otx_raster_near near_rim, near_seam;
     otx_texel_piece *pieces; /* [PIECES], by hash of their id */
@@ -746,6 +751,26 @@ shade_texel(block *b, int32_t x, int32_t y, int32_t *cells)
         texel_numbers(b, x, y, first, out);
 }
 
+/* Whether lookups come close to texels: they do to those of level 0. */
+static bool
+is_fitted(const block *b)
+{
+    return b->page->level == 0 && b->source->kind == OTX_TEXEL_COLOR;
+}
+
+/* Whether a texel is of the block, or of its apron and looked at: by the
+ * texels at the block's border, of which those by a rim look farther. */
+static bool
+is_needed(const block *b, int32_t x, int32_t y)
+{
+    const size_t i = (size_t)y * (size_t)b->raster.width + (size_t)x;
+    const int32_t dx = x - b->left, dy = y - b->below;
+
+    return (dx >= -1 && dx <= b->width && dy >= -1 && dy <= b->height) ||
+           (b->near_rim.edges[i] >= 0 &&
+            b->near_rim.distance[i] < RIM_APRON_SQ);
+}
+
 static void
 shade(block *b)
 {
@@ -755,18 +780,17 @@ shade(block *b)
         cells[i] = -2; /* not looked for yet */
     for (int32_t y = 0; y < b->raster.height; ++y)
         for (int32_t x = 0; x < b->raster.width; ++x)
-            shade_texel(b, x, y, cells);
+            if (is_needed(b, x, y))
+                shade_texel(b, x, y, cells);
 }
 
-/* The block's place and size, and the apron that sharpening looks at. */
+/* The block's place and size, and the apron that is looked at, too. */
 static void
 place_block(block *b, int32_t x, int32_t y)
 {
     const otx_page *page = b->page;
     const int32_t top = page->side - y * OTX_PAGE_BLOCK;
-    const int32_t apron = b->source->kind == OTX_TEXEL_COLOR && page->level == 0
-                              ? OTX_PAGE_APRON
-                              : 0;
+    const int32_t apron = is_fitted(b) ? OTX_PAGE_APRON : 0;
     const int32_t left = x * OTX_PAGE_BLOCK;
 
     b->width = otx_texel_block_width(page, x);
@@ -798,8 +822,9 @@ begin(block *b, int32_t x, int32_t y, otx_arena *scratch)
 
     b->pieces = OTX_NEW(scratch, otx_texel_piece, PIECES);
     b->owners = OTX_NEW(scratch, int32_t, texels);
-    b->pixels = OTX_NEW(scratch, float, texels *(size_t)b->source->channels);
-    if (!b->pieces || !b->owners || !b->pixels ||
+    b->pixels = OTX_ZNEW(scratch, float, texels *(size_t)b->source->channels);
+    b->sharp = OTX_NEW(scratch, float, texels *(size_t)b->source->channels);
+    if (!b->pieces || !b->owners || !b->pixels || !b->sharp ||
         !otx_raster_begin(scratch, &b->raster) ||
         !otx_raster_near_begin(scratch, &b->raster, &b->near_rim) ||
         !otx_raster_near_begin(scratch, &b->raster, &b->near_seam))
@@ -809,19 +834,39 @@ begin(block *b, int32_t x, int32_t y, otx_arena *scratch)
     return true;
 }
 
-/* Without the apron: only level 0 has one, and only it is sharpened. */
+/* Texels as lookups want them, without the apron. */
+static void
+fit(const block *b, float *pixels)
+{
+    const int32_t channels = b->source->channels, width = b->raster.width;
+    otx_sharpen_grid grid = {
+        width, b->raster.height, channels, b->pixels, b->owners};
+    const otx_join join = {
+        b->source->mapping, b->source->textures, b->page, &b->raster,
+        &b->near_rim,       &b->near_seam,       &grid,   b->source->low,
+        b->source->high,
+    };
+    otx_join_edge edge = {.rim = -1};
+
+    otx_sharpen_texels(&grid, 0, 0, width, b->raster.height, b->sharp);
+    grid.pixels = b->sharp;
+    for (int32_t y = b->below; y < b->below + b->height; ++y)
+        for (int32_t x = b->left; x < b->left + b->width; ++x)
+        {
+            otx_join_texel(&join, x, y, &edge, pixels);
+            pixels += channels;
+        }
+}
+
+/* Only texels that are fitted have an apron. */
 static void
 finish(const block *b, float *pixels)
 {
     const size_t values = (size_t)b->raster.width * (size_t)b->raster.height *
                           (size_t)b->source->channels;
-    const otx_sharpen_grid grid = {
-        b->raster.width, b->raster.height, b->source->channels, b->pixels,
-        b->owners};
 
-    if (b->page->level == 0 && b->source->kind == OTX_TEXEL_COLOR)
-        otx_sharpen_texels(
-            &grid, b->left, b->below, b->width, b->height, pixels);
+    if (is_fitted(b))
+        fit(b, pixels);
     else
         memcpy(pixels, b->pixels, values * sizeof *pixels);
 }

@@ -29,6 +29,8 @@ typedef struct otx_texel_source
     otx_texture textures[OTX_EXEMPLARS_MAX]; /* their linear pixels */
     otx_texel_kind kind;
     int32_t channels; /* of what is baked */
+    /* Of colours: the exemplar's range, which no texel leaves. */
+    float low[OTX_IMAGE_MAX_CHANNELS], high[OTX_IMAGE_MAX_CHANNELS];
 } otx_texel_source;
 
 /* A facet on a page: everything on it is affine. */

@@ -97,38 +97,90 @@ compare(const scene *s, otx_vec2 a, otx_vec2 b, jumps *to)
     ++to->count;
 }
 
-/* The same points of an edge from the face on either side. */
-static void
-compare_across(scene *s, int32_t face, int32_t k)
+/* The ends of a cut on the texture, seen from the face on either side; false
+ * where there is none, and from the other face. */
+static bool
+find_cut(
+    const otx_layout *layout, int32_t face, int32_t k, otx_vec2 here[2],
+    otx_vec2 there[2])
 {
-    const otx_level *leaf = otx_surface_leaf(s->layout->surface);
+    const otx_level *leaf = otx_surface_leaf(layout->surface);
     const int32_t other = otx_level_neighbour(leaf, face, k);
     const int32_t first = leaf->face_first[face];
     const int32_t size = otx_level_face_size(leaf, face);
     const int32_t edge = leaf->face_edges[first + k];
 
-    if (other < face || !s->layout->rim[first + k] ||
-        !s->layout->covered[face] || !s->layout->covered[other])
-        return;
+    if (other < face || !layout->rim[first + k] || !layout->covered[face] ||
+        !layout->covered[other])
+        return false;
 
-    const int32_t there = leaf->face_first[other];
+    const int32_t start = leaf->face_first[other];
     const int32_t count = otx_level_face_size(leaf, other);
     int32_t j = 0;
 
-    while (leaf->face_edges[there + j] != edge)
+    while (leaf->face_edges[start + j] != edge)
         ++j;
+    here[0] = corner(layout, first + k);
+    here[1] = corner(layout, first + (k + 1) % size);
+    there[0] = corner(layout, start + (j + 1) % count);
+    there[1] = corner(layout, start + j);
+    return true;
+}
+
+/* The same points of an edge from the face on either side. */
+static void
+compare_across(scene *s, int32_t face, int32_t k)
+{
+    otx_vec2 a[2], b[2];
+
+    if (!find_cut(s->layout, face, k, a, b))
+        return;
     for (int32_t i = 0; i <= PLACES; ++i)
     {
         const double t = (double)i / PLACES;
 
         compare(
-            s,
-            otx_vec2_lerp(
-                corner(s->layout, first + k),
-                corner(s->layout, first + (k + 1) % size), t),
-            otx_vec2_lerp(
-                corner(s->layout, there + (j + 1) % count),
-                corner(s->layout, there + j), t),
+            s, otx_vec2_lerp(a[0], a[1], t), otx_vec2_lerp(b[0], b[1], t),
+            &s->across);
+    }
+}
+
+/* Texels along an edge that runs between them; 0 for one that does not. */
+static int32_t
+texels_along(const otx_vec2 ends[2], double side)
+{
+    const double x = fabs(ends[1].x - ends[0].x) * side;
+    const double y = fabs(ends[1].y - ends[0].y) * side;
+    const double from = (x > y ? ends[0].x : ends[0].y) * side;
+    const double length = x + y;
+
+    return fmin(x, y) > 1e-3 || fabs(from - floor(from + 0.5)) > 1e-3 ||
+                   fabs(length - floor(length + 0.5)) > 1e-3
+               ? 0
+               : (int32_t)(length + 0.5);
+}
+
+/* The same at the middles of the texels along an edge that has as many on
+ * either side. */
+static void
+compare_joined(scene *s, int32_t face, int32_t k)
+{
+    const double side = s->image->width;
+    otx_vec2 a[2], b[2];
+
+    if (!find_cut(s->layout, face, k, a, b))
+        return;
+
+    const int32_t count = texels_along(a, side);
+
+    if (count != texels_along(b, side))
+        return;
+    for (int32_t i = 0; i < count; ++i)
+    {
+        const double t = (i + 0.5) / count;
+
+        compare(
+            s, otx_vec2_lerp(a[0], a[1], t), otx_vec2_lerp(b[0], b[1], t),
             &s->across);
     }
 }
@@ -209,6 +261,39 @@ check(const char *name, otx_layout_source source, double widest)
     test_run_destroy(run);
 }
 
+/* Where texels lie alike along a cut both sides show the same, but for a half
+ * of what half rounds off: texels of the margin make up for the whole of it. */
+static void
+both_sides_of_a_cut_show_the_same(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_cage cage;
+
+    (void)state;
+    if (mesh_cage_from_file(run, "models/cages/creature.obj", &cage) !=
+        OSDTEX_OK)
+        fail_msg("%s", test_last_message(run));
+
+    const otx_surface surface = mesh_refine(run, &cage, 3);
+    const otx_level *leaf = otx_surface_leaf(&surface);
+    const otx_mapping *mapping = projection(run, &surface);
+    const otx_layout layout =
+        flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, MARGIN);
+    const flat_levels baked =
+        flat_bake(run, mapping, every_scale(run), &layout, &COLOR, 0);
+    scene s = {.layout = &layout, .image = &baked.levels[0]};
+
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        for (int32_t k = 0; k < otx_level_face_size(leaf, f); ++k)
+            compare_joined(&s, f, k);
+    assert_true(s.across.count > 1000);
+    if (s.across.most > 3e-4)
+        fail_msg(
+            "%g at the most, mean %g", s.across.most,
+            s.across.sum / s.across.count);
+    test_run_destroy(run);
+}
+
 /* Cells are apart down to texels of two margins. */
 static void
 no_level_of_an_atlas_jumps_more_across_blocks(void **state)
@@ -233,6 +318,7 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(both_sides_of_a_cut_show_the_same),
         cmocka_unit_test(no_level_of_an_atlas_jumps_more_across_blocks),
         cmocka_unit_test(no_level_of_own_uvs_jumps_more_across_seams),
     };

@@ -1,0 +1,399 @@
+/* join.c -- the residual of lookups on a rim, put onto the texels around. */
+#include "bake/join.h"
+
+#include "bake/facet.h"
+#include "mapping/source.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum
+{
+    SAMPLES = 4 /* within a texel of an edge */
+};
+
+/* How far a rim may be from the middle between texels that it runs through, in
+ * half texels: coordinates are rounded to floats. */
+static const double MIDWAY = 0.01;
+
+/* Half has no larger numbers. */
+static const float HALF_MAX = 65504.0f;
+
+/* Exemplar UVs that differ by less are one: rounding. */
+static const double SAME = 1e-5;
+
+/* ---- what an edge shows ---------------------------------------------------
+ */
+
+static otx_vec2
+corner_of(const float *uvs, int32_t corner)
+{
+    const float *uv = uvs + 2 * (size_t)corner;
+
+    return (otx_vec2){uv[0], uv[1]};
+}
+
+/* An edge as the side of its facet: the corners of the edge, then the third. */
+static void
+edge_corners(
+    const otx_level *leaf, int32_t face, int32_t edge, int32_t corners[3])
+{
+    int32_t side;
+    const otx_facet facet = otx_facet_at_edge(leaf, face, edge, &side);
+
+    for (int k = 0; k < 3; ++k)
+        corners[k] = facet.corners[(side + k) % 3];
+}
+
+static double
+length_of(const otx_page *page, const int32_t corners[3])
+{
+    const otx_vec2 d = otx_vec2_sub(
+        otx_page_texel(page, corners[1]), otx_page_texel(page, corners[0]));
+
+    return otx_vec2_length(d);
+}
+
+/* The exemplar's UV from a texel to the next one away from the edge. */
+static otx_vec2
+away_from_edge(const otx_join *join, const int32_t corners[3])
+{
+    const float *uvs = join->mapping->uvs;
+    const otx_page *page = join->page;
+    const otx_vec2 at = otx_page_texel(page, corners[0]);
+    const otx_vec2 edge = otx_vec2_sub(otx_page_texel(page, corners[1]), at);
+    const otx_vec2 arm = otx_vec2_sub(otx_page_texel(page, corners[2]), at);
+    const double sq = otx_vec2_dot(edge, edge);
+    const double height = otx_vec2_cross(edge, arm) / sqrt(sq);
+
+    /* Written so that NaN, of an edge without length, lands here too. */
+    if (!(fabs(height) > 0.0))
+        return (otx_vec2){0.0, 0.0};
+
+    const otx_vec2 uv = corner_of(uvs, corners[0]);
+    const otx_vec2 foot = otx_vec2_lerp(
+        uv, corner_of(uvs, corners[1]), otx_vec2_dot(arm, edge) / sq);
+
+    return otx_vec2_scale(
+        1.0 / height, otx_vec2_sub(corner_of(uvs, corners[2]), foot));
+}
+
+/* Texels lie to either side of the edge: a lookup on it sees two of them. */
+static otx_join_side
+side_of(
+    const otx_join *join, const otx_texture *texture, const int32_t corners[3],
+    double step)
+{
+    const otx_vec2 uv = corner_of(join->mapping->uvs, corners[0]);
+    const otx_vec2 along =
+        otx_vec2_sub(corner_of(join->mapping->uvs, corners[1]), uv);
+
+    return (otx_join_side){
+        uv, along,
+        otx_texture_measure(
+            texture, otx_vec2_scale(step / SAMPLES, along),
+            otx_vec2_scale(2.0, away_from_edge(join, corners)))};
+}
+
+static int32_t
+edge_of(const otx_level *leaf, int32_t face, int32_t edge)
+{
+    const int32_t *edges = leaf->face_edges + leaf->face_first[face];
+    int32_t k = 0;
+
+    while (edges[k] != edge)
+        ++k;
+    return k;
+}
+
+/* Whether a step in the exemplar leads to the same place, where it wraps also
+ * by whole pictures. */
+static bool
+is_nothing(double step, bool wrap)
+{
+    return fabs(wrap ? step - floor(step + 0.5) : step) < SAME;
+}
+
+/* Whether both sides of an edge show the same. */
+static bool
+is_whole(const otx_texture *texture, const otx_join_side sides[2])
+{
+    const otx_vec2 d = otx_vec2_sub(sides[1].uv, sides[0].uv);
+    const otx_vec2 e = otx_vec2_sub(sides[1].along, sides[0].along);
+
+    return is_nothing(d.x, texture->wrap_x) &&
+           is_nothing(d.y, texture->wrap_y) && is_nothing(e.x, false) &&
+           is_nothing(e.y, false);
+}
+
+static void
+set_edge(const otx_join *join, int32_t rim, otx_join_edge *out)
+{
+    const otx_page *page = join->page;
+    const otx_level *leaf = otx_surface_leaf(page->layout->surface);
+    const otx_page_rim *r = &page->rims[rim];
+    const int32_t edge = leaf->face_edges[leaf->face_first[r->face] + r->edge];
+    const int32_t other = otx_level_neighbour(leaf, r->face, r->edge);
+    int32_t here[3], there[3];
+
+    out->rim = rim;
+    out->goes_on = other >= 0 && page->layout->covered[other] &&
+                   otx_source_of(join->mapping, other) ==
+                       otx_source_of(join->mapping, r->face);
+    if (!out->goes_on)
+        return;
+    out->texture = &join->textures[otx_source_of(join->mapping, r->face)];
+    edge_corners(leaf, r->face, r->edge, here);
+    edge_corners(leaf, other, edge_of(leaf, other, edge), there);
+
+    const double texels = fmin(length_of(page, here), length_of(page, there));
+
+    out->step = texels > 1.0 ? 1.0 / texels : 1.0;
+    otx_page_ends(page, r, out->ends);
+    out->sides[0] = side_of(join, out->texture, here, out->step);
+    out->sides[1] = side_of(join, out->texture, there, out->step);
+    /* It runs backwards over there. */
+    out->sides[1].uv = otx_vec2_add(out->sides[1].uv, out->sides[1].along);
+    out->sides[1].along = otx_vec2_scale(-1.0, out->sides[1].along);
+    /* Along a seam the step is the mapping's own. */
+    out->goes_on = is_whole(out->texture, out->sides);
+}
+
+/* What both sides show at fraction t of the way, in the mean. At an end, which
+ * other edges have as well, without what is beside it. */
+static void
+color_of(
+    const otx_join *join, const otx_join_edge *edge, double t, float *color)
+{
+    const int32_t channels = join->grid->channels;
+    const int32_t given = edge->texture->pyramid.levels[0].channels;
+    const double step = t > 0.0 && t < 1.0 ? edge->step : 0.0;
+    double sum[OTX_IMAGE_MAX_CHANNELS] = {0.0};
+
+    for (int i = 0; i < 2; ++i)
+        for (int s = 0; s < SAMPLES; ++s)
+        {
+            const otx_join_side *side = &edge->sides[i];
+            const double at = t + ((s + 0.5) / SAMPLES - 0.5) * step;
+
+            otx_texture_probe(
+                edge->texture, &side->probes,
+                otx_vec2_add(side->uv, otx_vec2_scale(at, side->along)), color);
+            /* Opaque, where only another exemplar has alpha. */
+            for (int32_t c = 0; c < channels; ++c)
+                sum[c] += c < given ? color[c] : 1.0f;
+        }
+    for (int32_t c = 0; c < channels; ++c)
+        color[c] = (float)(sum[c] / (2 * SAMPLES));
+}
+
+/* ---- lookups --------------------------------------------------------------
+ */
+
+/* Four texels that a lookup mixes: the lower left one, and the weights of the
+ * right and the upper ones. */
+typedef struct lookup
+{
+    int64_t corner;
+    double x, y;
+} lookup;
+
+/* The lower of two neighbours, and the weight of the upper. */
+static int32_t
+cell_at(double at, int32_t count, double *weight)
+{
+    const double low = floor(at - 0.5);
+    const double most = count > 1 ? count - 2 : 0;
+    const double held = low > 0.0 ? low < most ? low : most : 0.0;
+    const double t = at - 0.5 - held;
+
+    *weight = t > 0.0 ? t < 1.0 ? t : 1.0 : 0.0;
+    return (int32_t)held;
+}
+
+/* Around a point in texels of the page. */
+static lookup
+lookup_at(const otx_raster *raster, otx_vec2 at)
+{
+    lookup out;
+    const int32_t x = cell_at(at.x - raster->origin.x, raster->width, &out.x);
+    const int32_t y = cell_at(at.y - raster->origin.y, raster->height, &out.y);
+
+    out.corner = (int64_t)y * raster->width + x;
+    return out;
+}
+
+/* The chart that a texel shows or continues; -1 far from all. */
+static int32_t
+chart_shown(const otx_join *join, int64_t texel)
+{
+    const int32_t owner = join->grid->owners[texel];
+    const int32_t rim = join->near_rim->edges[texel];
+
+    return owner >= 0 || rim < 0
+               ? owner
+               : join->page->layout->chart[join->page->rims[rim].face];
+}
+
+/* Whether all that a lookup mixes shows one chart. */
+static bool
+is_of_chart(const otx_join *join, lookup at, int32_t chart)
+{
+    const int64_t above = at.corner + join->raster->width;
+
+    return chart_shown(join, at.corner) == chart &&
+           chart_shown(join, at.corner + 1) == chart &&
+           chart_shown(join, above) == chart &&
+           chart_shown(join, above + 1) == chart;
+}
+
+static double
+look_up(const otx_join *join, lookup at, int32_t channel)
+{
+    const int32_t right = join->grid->channels;
+    const ptrdiff_t up = (ptrdiff_t)join->raster->width * right;
+    const float *p = join->grid->pixels + at.corner * right + channel;
+
+    return (1.0 - at.y) * ((1.0 - at.x) * p[0] + at.x * p[right]) +
+           at.y * ((1.0 - at.x) * p[up] + at.x * p[up + right]);
+}
+
+/* ---- texels ---------------------------------------------------------------
+ */
+
+/* As the file will have it: 11 significant bits [Dekker71]. */
+static float
+half_of(float value)
+{
+    const float far = value * 8193.0f;
+
+    return fabsf(value) < HALF_MAX ? far - (far - value) : value;
+}
+
+static float
+hold(const otx_join *join, int32_t channel, double value)
+{
+    const float low = join->low[channel], high = join->high[channel];
+
+    return value < low ? low : value > high ? high : (float)value;
+}
+
+/* Steps to the texel on the other side of a rim midway between both, or across
+ * a corner midway between four. */
+static bool
+is_mirrored(otx_vec2 texel, otx_vec2 foot, int32_t steps[2])
+{
+    const double d[2] = {2.0 * (foot.x - texel.x), 2.0 * (foot.y - texel.y)};
+
+    for (int i = 0; i < 2; ++i)
+    {
+        steps[i] = (int32_t)floor(d[i] + 0.5);
+        if (abs(steps[i]) > 1 || fabs(d[i] - steps[i]) > MIDWAY)
+            return false;
+    }
+    return steps[0] != 0 || steps[1] != 0;
+}
+
+/* The texel as it is. */
+static void
+keep(const otx_join *join, int32_t x, int32_t y, float *out)
+{
+    const int32_t channels = join->grid->channels;
+    const int64_t texel = (int64_t)y * join->raster->width + x;
+
+    memcpy(
+        out, join->grid->pixels + texel * channels,
+        (size_t)channels * sizeof *out);
+}
+
+static void join_texel(
+    const otx_join *join, int32_t x, int32_t y, int32_t depth,
+    otx_join_edge *edge, float *out);
+
+static bool
+is_owned(const otx_join *join, int32_t x, int32_t y, int32_t chart)
+{
+    return x >= 0 && x < join->raster->width && y >= 0 &&
+           y < join->raster->height &&
+           join->grid->owners[(int64_t)y * join->raster->width + x] == chart;
+}
+
+/* A texel of the margin with which the mean of both sides is what is wanted,
+ * after rounding, too; or that of the four around a corner, where no seam ends
+ * there, so that all who meet in it want the same. */
+static void
+complete(
+    const otx_join *join, int32_t x, int32_t y, const int32_t steps[2],
+    int32_t depth, otx_join_edge *edge, const float *wanted, float *out)
+{
+    const int32_t channels = join->grid->channels;
+    const bool is_corner = steps[0] != 0 && steps[1] != 0;
+    const int32_t others[3][2] = {
+        {x + steps[0], y + steps[1]}, {x + steps[0], y}, {x, y + steps[1]}};
+    float sum[OTX_IMAGE_MAX_CHANNELS] = {0.0f};
+
+    for (int i = 0; i < (is_corner ? 3 : 1); ++i)
+    {
+        join_texel(join, others[i][0], others[i][1], depth - 1, edge, out);
+        if (is_corner && !edge->goes_on)
+        {
+            keep(join, x, y, out);
+            return;
+        }
+        for (int32_t c = 0; c < channels; ++c)
+            sum[c] += is_corner ? out[c] : half_of(out[c]);
+    }
+    for (int32_t c = 0; c < channels; ++c)
+        out[c] = hold(join, c, (is_corner ? 4.0 : 2.0) * wanted[c] - sum[c]);
+}
+
+/* `depth`: 0 to share what is lacking with the other texels, 1 to complete a
+ * texel of the margin from that across the rim, 2 from those around a corner,
+ * too. */
+static void
+join_texel(
+    const otx_join *join, int32_t x, int32_t y, int32_t depth,
+    otx_join_edge *edge, float *out)
+{
+    const int32_t channels = join->grid->channels;
+    const int64_t texel = (int64_t)y * join->raster->width + x;
+    const int32_t rim = join->near_rim->edges[texel];
+    float wanted[OTX_IMAGE_MAX_CHANNELS];
+    int32_t steps[2];
+
+    keep(join, x, y, out);
+    if (rim < 0 || join->raster->width < 2 || join->raster->height < 2 ||
+        !(join->near_rim->distance[texel] < 1.0f) ||
+        join->near_seam->edges[texel] >= 0)
+        return;
+    if (edge->rim != rim)
+        set_edge(join, rim, edge);
+    if (!edge->goes_on)
+        return;
+
+    const int32_t chart = join->page->layout->chart[join->page->rims[rim].face];
+    const otx_vec2 at = otx_raster_texel(join->raster, x, y);
+    const double t = otx_raster_nearest(edge->ends[0], edge->ends[1], at);
+    const otx_vec2 foot = otx_vec2_lerp(edge->ends[0], edge->ends[1], t);
+    const lookup found = lookup_at(join->raster, foot);
+
+    if (!is_of_chart(join, found, chart))
+        return;
+    color_of(join, edge, t, wanted);
+    if (join->grid->owners[texel] < 0 && is_mirrored(at, foot, steps) &&
+        depth >= (steps[0] != 0) + (steps[1] != 0) &&
+        is_owned(join, x + steps[0], y + steps[1], chart))
+    {
+        complete(join, x, y, steps, depth, edge, wanted, out);
+        return;
+    }
+    for (int32_t c = 0; c < channels; ++c)
+        out[c] = hold(join, c, out[c] + (wanted[c] - look_up(join, found, c)));
+}
+
+void
+otx_join_texel(
+    const otx_join *join, int32_t x, int32_t y, otx_join_edge *edge, float *out)
+{
+    join_texel(join, x, y, 2, edge, out);
+}
