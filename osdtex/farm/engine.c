@@ -27,18 +27,23 @@ put_quoted(FILE *out, const char *text, const char *dollar)
     fputc('\'', out);
 }
 
+/* In single quotes for a shell, within XML. */
 static void
-put_xml(FILE *out, const char *text)
+put_quoted_xml(FILE *out, const char *text)
 {
+    fputc('\'', out);
     for (; *text; ++text)
     {
-        if (*text == '<')
+        if (*text == '\'')
+            fputs("'\\''", out);
+        else if (*text == '<')
             fputs("&lt;", out);
         else if (*text == '&')
             fputs("&amp;", out);
         else
             fputc(*text, out);
     }
+    fputc('\'', out);
 }
 
 static void
@@ -75,8 +80,8 @@ put_slurm(FILE *out, const otx_job *job, const char *program)
     fputs(" --task \"$SLURM_ARRAY_TASK_ID\"\n", out);
 }
 
-/* A job specification as cjsl-1.15.dtd has it; pycuerun and cueadmin take it.
- */
+/* A job specification as cjsl-1.15.dtd has it. Commands go through a shell;
+ * names have three characters at least; one retry is all that Cuebot grants. */
 static void
 put_opencue(FILE *out, const otx_job *job, const char *program)
 {
@@ -87,13 +92,13 @@ put_opencue(FILE *out, const otx_job *job, const char *program)
         "\"http://localhost:8080/spcue/dtd/cjsl-1.15.dtd\">\n"
         "<spec>\n  <facility>local</facility>\n  <show>osdtex</show>\n"
         "  <shot>textures</shot>\n  <user>render</user>\n"
-        "  <job name=\"%s\">\n    <paused>False</paused>\n"
-        "    <maxretries>2</maxretries>\n    <layers>\n"
+        "  <job name=\"%s%s\">\n    <paused>False</paused>\n"
+        "    <maxretries>1</maxretries>\n    <layers>\n"
         "      <layer name=\"tasks\" type=\"Render\">\n        <cmd>",
-        job->name);
-    put_xml(out, program);
+        strlen(job->name) < 3 ? "job_" : "", job->name);
+    put_quoted_xml(out, program);
     fputs(" run ", out);
-    put_xml(out, job->path);
+    put_quoted_xml(out, job->path);
     fprintf(
         out,
         " --task #IFRAME#</cmd>\n        <range>0-%d</range>\n"
@@ -120,7 +125,7 @@ put_deadline_plugin(FILE *out, const otx_job *job, const char *program)
     fprintf(
         out,
         "Executable=%s\nArguments=run <QUOTE>%s<QUOTE> --task <STARTFRAME>\n"
-        "Shell=default\nShellExecute=False\n",
+        "ShellExecute=False\n",
         program, job->path);
 }
 

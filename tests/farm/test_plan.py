@@ -3,6 +3,7 @@
 once, and make as the smallest of farms."""
 
 import json
+import shlex
 import subprocess
 import xml.etree.ElementTree
 
@@ -29,9 +30,10 @@ class Plan(JobTest):
         files = self.plan(job, "opencue", "--program", "/net/a&b/osdtex")
         spec = xml.etree.ElementTree.fromstring(files["job.xml"])
         self.assertEqual(spec.find(".//range").text, "0-1")
+        # Cue's hosts hand the command to a shell.
         self.assertEqual(
-            spec.find(".//cmd").text,
-            f"/net/a&b/osdtex run {job} --task #IFRAME#")
+            shlex.split(spec.find(".//cmd").text.replace("#IFRAME#", "1")),
+            ["/net/a&b/osdtex", "run", str(job), "--task", "1"])
         files = self.plan(job, "deadline", "--program", "osdtex")
         self.assertIn("Frames=0-1\n", files["job_info.job"])
         self.assertIn("Executable=osdtex\n", files["plugin_info.job"])
