@@ -551,6 +551,25 @@ blend_texel(block *b, int32_t x, int32_t y, int32_t first, float *color)
             otx_raster_texel(&b->raster, x, y), color);
 }
 
+/* Whether patches meet at a rim, of which a texel's centre is within a texel.
+ */
+static bool
+is_at_seam(const block *b, int32_t x, int32_t y)
+{
+    const size_t i = (size_t)y * (size_t)b->raster.width + (size_t)x;
+    const int32_t *patch = b->source->mapping->face_patch;
+    const otx_level *leaf = otx_surface_leaf(b->source->layout->surface);
+
+    if (b->near_rim.edges[i] < 0 || !(b->near_rim.distance[i] < 1.0f))
+        return false;
+
+    const otx_page_rim *r = &b->page->rims[b->near_rim.edges[i]];
+    const int32_t other = otx_level_neighbour(leaf, r->face, r->edge);
+
+    return other >= 0 && b->source->layout->covered[other] &&
+           patch[other] != patch[r->face];
+}
+
 /* Whether samples of a texel lie in different patches of one chart. */
 static bool
 has_seam(const block *b, int32_t x, int32_t y)
@@ -580,7 +599,7 @@ texel_numbers(block *b, int32_t x, int32_t y, int32_t first, float *out)
 
     numbers_at(b->source, &walk, out);
     if (b->source->kind == OTX_TEXEL_SEAM)
-        out[0] = has_seam(b, x, y) ? 1.0f : 0.0f;
+        out[0] = has_seam(b, x, y) || is_at_seam(b, x, y) ? 1.0f : 0.0f;
     out[2] = 1.0f;
 }
 
@@ -661,6 +680,8 @@ beyond_color(block *b, int32_t x, int32_t y, int32_t *cells, float *out)
     color_at(b, &walk, 1.0, out);
     if (near >= 0)
         blend_beyond(b, near, x, y, out);
+    if (b->source->kind == OTX_TEXEL_SEAM)
+        out[0] = is_at_seam(b, x, y) ? 1.0f : 0.0f;
 }
 
 /* ---- blocks ---------------------------------------------------------------

@@ -393,6 +393,54 @@ numbers_are_those_of_the_mapping(void **state)
     test_run_destroy(run);
 }
 
+/* Patches are blocks here, which meet at rims only: the texels beside those
+ * are marked, in the block and in its margin, and no others. */
+static void
+seams_at_rims_are_marked(void **state)
+{
+    static const otx_bake_options seam = {.kind = OTX_TEXEL_SEAM};
+    enum
+    {
+        N = 2,
+        SIDE = 128
+    };
+    otx_run *run = test_run_create();
+    const otx_surface *surface = flat_surface(run, N, 2);
+    otx_mapping *mapping = flat_mapping(run, surface, N);
+    const otx_layout layout =
+        flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, 4);
+    const otx_level *leaf = otx_surface_leaf(surface);
+    int32_t marked = 0;
+
+    (void)state;
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        mapping->face_patch[f] = leaf->face_cage[f];
+
+    const double texel = 1.0 / ((double)(layout.uvs[4] - layout.uvs[0]) * SIDE);
+    const flat_levels baked =
+        flat_bake(run, mapping, flat_ramp(run, 64), &layout, &seam, 0);
+
+    for (int32_t y = 0; y < SIDE; ++y)
+        for (int32_t x = 0; x < SIDE; ++x)
+        {
+            const expected e = expect(&layout, N, SIDE, x, y);
+            const double dx = fabs(e.x - 1.0), dy = fabs(e.y - 1.0);
+            /* Off the corners and the sheet's border, in the gutter. */
+            const bool is_plain = fmax(dx, dy) > 2.0 * texel &&
+                                  fmax(dx, dy) < 1.0 - 2.0 * texel &&
+                                  e.beyond < 2.0;
+
+            if (!is_plain)
+                continue;
+            if ((fmin(dx, dy) < texel) !=
+                (otx_image_at(&baked.levels[0], x, y)[0] == 1.0f))
+                fail_msg("texel %d %d of face %d", x, y, e.face);
+            marked += fmin(dx, dy) < texel;
+        }
+    assert_true(marked > 100);
+    test_run_destroy(run);
+}
+
 static bool
 stop_soon(void *user, const char *stage, double fraction)
 {
@@ -489,6 +537,7 @@ main(void)
         cmocka_unit_test(a_constant_stays_constant),
         cmocka_unit_test(threads_make_no_difference),
         cmocka_unit_test(numbers_are_those_of_the_mapping),
+        cmocka_unit_test(seams_at_rims_are_marked),
         cmocka_unit_test(it_can_be_stopped_anywhere),
         cmocka_unit_test(failing_any_allocation_leaves_nothing),
     };
