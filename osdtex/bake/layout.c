@@ -280,11 +280,35 @@ span_of(const otx_layout *layout, int32_t face, span *out)
     return out->row_end < ROWS || out->column_end < COLUMNS;
 }
 
+/* The corner of a leaf face that is farthest beyond the tiles. */
+static const float *
+outermost_uv(const otx_layout *layout, int32_t face)
+{
+    const otx_level *leaf = otx_surface_leaf(layout->surface);
+    const float *best = NULL;
+    double most = -INFINITY;
+
+    for (int32_t c = leaf->face_first[face]; c < leaf->face_first[face + 1];
+         ++c)
+    {
+        const float *uv = layout->leaf_uvs + 2 * (size_t)c;
+        const double beyond = fmax(
+            fmax(-uv[0], uv[0] - (double)COLUMNS),
+            fmax(-uv[1], uv[1] - (double)ROWS));
+
+        if (best && !(beyond > most))
+            continue;
+        best = uv;
+        most = beyond;
+    }
+    return best;
+}
+
 static otx_status
 outside(otx_run *run, const otx_layout *layout, int32_t face)
 {
     const otx_level *leaf = otx_surface_leaf(layout->surface);
-    const float *uv = layout->leaf_uvs + 2 * (size_t)leaf->face_first[face];
+    const float *uv = outermost_uv(layout, face);
     const otx_cage *cage = layout->surface->cage;
     otx_where where = OTX_NOWHERE;
 
@@ -378,6 +402,65 @@ find_tiles(otx_run *run, otx_layout *out)
     return status;
 }
 
+/* ---- faces without area ---------------------------------------------------
+ */
+
+/* Whether a leaf face has a millionth of a texel at least. */
+static bool
+has_area(const otx_layout *layout, int32_t face)
+{
+    const otx_level *leaf = otx_surface_leaf(layout->surface);
+    const int32_t first = leaf->face_first[face];
+    const float *a = layout->leaf_uvs + 2 * (size_t)first;
+    double area2 = 0.0;
+
+    for (int32_t c = first + 2; c < leaf->face_first[face + 1]; ++c)
+    {
+        const float *p = layout->leaf_uvs + 2 * (size_t)(c - 1);
+        const float *q = p + 2;
+
+        area2 += fabs(
+            ((double)p[0] - a[0]) * ((double)q[1] - a[1]) -
+            ((double)p[1] - a[1]) * ((double)q[0] - a[0]));
+    }
+    return 0.5 * area2 * layout->side * layout->side > 1e-6;
+}
+
+/* Own UVs that were never unwrapped are all in one place: say so. */
+static otx_status
+check_areas(otx_run *run, const otx_layout *layout)
+{
+    const otx_level *leaf = otx_surface_leaf(layout->surface);
+    const otx_cage *cage = layout->surface->cage;
+    otx_where where = {.file = cage->path, .face = -1};
+    int32_t covered = 0, flat = 0;
+
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        if (!layout->covered[f])
+            continue;
+        ++covered;
+        if (has_area(layout, f))
+            continue;
+        if (flat++ == 0)
+            where.face = leaf->face_cage[f];
+    }
+    if (flat == 0)
+        return OSDTEX_OK;
+    where.line = cage->face_line ? cage->face_line[where.face] : 0;
+    if (flat == covered)
+        return otx_fail(
+            run, OSDTEX_ERROR_TOPOLOGY, STAGE, where,
+            "the cage's UVs lie in a point or on a line; unwrap it, or let an "
+            "atlas be made");
+    otx_note(
+        run, OSDTEX_SEVERITY_WARNING, STAGE, where,
+        "face %d has no area in UV, and %d of %d refined faces have none: "
+        "texels cannot show them; unwrap them, or let an atlas be made",
+        where.face, flat, covered);
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_layout_build(
     otx_run *run, const otx_mapping *mapping, const otx_layout_options *options,
@@ -394,6 +477,7 @@ otx_layout_build(
             OTX_ATLAS_MARGIN_MAX);
     OTX_TRY(place_leaves(run, options, out));
     OTX_TRY(find_covered(run, mapping, out));
+    OTX_TRY(check_areas(run, out));
     OTX_TRY(find_rims(run, out));
     OTX_TRY(find_charts(run, out));
     return find_tiles(run, out);

@@ -54,8 +54,8 @@ typedef struct otx_layout
  * surface.
  *
  * ARGUMENT (options out of range, own UVs asked for and not there), LIMIT (UVs
- * outside of the UDIM tiles 1001 to 9999), TOPOLOGY when nothing is covered,
- * MEMORY. */
+ * outside of the UDIM tiles 1001 to 9999), TOPOLOGY when nothing is covered or
+ * no UVs have an area, MEMORY. */
 otx_status otx_layout_build(
     otx_run *run, const otx_mapping *mapping, const otx_layout_options *options,
     otx_layout *out);
