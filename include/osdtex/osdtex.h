@@ -492,7 +492,8 @@ extern "C"
         int32_t made_tileable; /* 1: the pixels are not those of the file */
         const float *pixels;   /* in linear_space, bottom row first */
         int32_t source_width;  /* of the picture whose width a scale means:
-                                * this one, or the one tiles were made of */
+                                * as read, before it was cropped to be made to
+                                * tile, or the one tiles were made of */
         int32_t tile_size;     /* texels; 0: this is no tiled texture */
     } osdtex_exemplar_info;
 

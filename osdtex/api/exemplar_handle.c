@@ -3,6 +3,8 @@
 #include "api/handle.h"
 #include "base/hash.h"
 #include "file/picture.h"
+#include "image/analysis.h"
+#include "tiling/period.h"
 #include "tiling/toroid.h"
 
 #include <math.h>
@@ -60,37 +62,88 @@ check_options(
 
 /* Up to which cuts are taken not to show; see docs/notes/toroid.md for the
  * pictures that it was set on. */
-static const double oddness_max = 1.1;
+static const double oddness_max = 1.15;
+
+/* Crops a lattice that does not tile to whole periods. False in `*whole` where
+ * there are none along its sides. */
+static otx_status
+crop_to_periods(
+    otx_run *run, otx_where where, otx_exemplar *exemplar, bool *whole)
+{
+    otx_analysis a;
+    otx_period p;
+
+    *whole = true;
+    OTX_TRY(otx_analysis_run(
+        run, &exemplar->lab, exemplar->wrap_x, exemplar->wrap_y, &a));
+    if (a.kind != OTX_ANALYSIS_LATTICE)
+        return OSDTEX_OK;
+    *whole = otx_period_find(exemplar, a.generators, &p);
+    if (!*whole ||
+        (p.width == exemplar->lab.width && p.height == exemplar->lab.height))
+        return OSDTEX_OK;
+    otx_note(
+        run, OSDTEX_SEVERITY_INFO, "exemplar", where,
+        "whole periods of the picture's lattice are %d x %d texels at (%d, %d)",
+        p.width, p.height, p.x, p.y);
+    return otx_exemplar_crop(
+        run, exemplar, p.x, p.y, p.width, p.height, exemplar);
+}
+
+static void
+say(otx_run *run, otx_where where, bool good, bool kept, double oddness)
+{
+    otx_note(
+        run, OSDTEX_SEVERITY_INFO, "exemplar", where,
+        "%s (oddness of what is across its cuts %.2f, good up to %.2f)",
+        good   ? "the picture is made to tile"
+        : kept ? "the picture is kept as it is: made to tile, its cuts would "
+                 "show"
+               : "the picture is made to tile, as asked for, though its cuts "
+                 "show",
+        oddness, oddness_max);
+}
 
 /* Makes a picture tile that does not, where it is asked for or good. */
 static otx_status
 make_tileable(otx_run *run, osdtex_tileable how, osdtex_exemplar *handle)
 {
-    const otx_exemplar source = handle->exemplar;
+    const bool may_keep = how == OSDTEX_TILEABLE_AUTO;
+    otx_exemplar source = handle->exemplar;
     const otx_where where = {source.source_path, 0, -1, -1};
-    otx_toroid toroid;
-    bool good;
+    otx_toroid toroid = {0};
+    bool whole, good;
 
-    if (how == OSDTEX_TILEABLE_KEEP || (source.wrap_x && source.wrap_y))
+    if (how == OSDTEX_TILEABLE_KEEP)
         return OSDTEX_OK;
-    if (how == OSDTEX_TILEABLE_AUTO &&
-        (source.lab.width < OTX_TOROID_MIN_SIDE ||
-         source.lab.height < OTX_TOROID_MIN_SIDE))
+    if (may_keep && (source.lab.width < OTX_TOROID_MIN_SIDE ||
+                     source.lab.height < OTX_TOROID_MIN_SIDE))
         return OSDTEX_OK;
-    OTX_TRY(otx_toroid_make(run, &source, &toroid));
+    OTX_TRY(crop_to_periods(run, where, &source, &whole));
+    if (handle->exemplar.wrap_x && handle->exemplar.wrap_y &&
+        source.lab.width == handle->exemplar.lab.width &&
+        source.lab.height == handle->exemplar.lab.height)
+        return OSDTEX_OK;
+    if (!whole && may_keep)
+    {
+        otx_note(
+            run, OSDTEX_SEVERITY_INFO, "exemplar", where,
+            "the picture is kept as it is: no whole periods of its lattice lie "
+            "along its sides");
+        return OSDTEX_OK;
+    }
+    if (!source.wrap_x || !source.wrap_y)
+        OTX_TRY(otx_toroid_make(run, &source, &toroid));
     good = toroid.oddness <= oddness_max;
-    otx_note(
-        run, OSDTEX_SEVERITY_INFO, "exemplar", where,
-        "%s (oddness of what is across its cuts %.2f, good up to %.2f)",
-        good                          ? "the picture is made to tile"
-        : how == OSDTEX_TILEABLE_AUTO ? "the picture is kept as it is: made to "
-                                        "tile, its cuts would show"
-                                      : "the picture is made to tile, as asked "
-                                        "for, though its cuts show",
-        toroid.oddness, oddness_max);
-    if (!good && how == OSDTEX_TILEABLE_AUTO)
+    say(run, where, good, may_keep, toroid.oddness);
+    if (!good && may_keep)
         return OSDTEX_OK;
     handle->info.made_tileable = 1;
+    if (!toroid.map.texels)
+    {
+        handle->exemplar = source;
+        return OSDTEX_OK;
+    }
     return otx_exemplar_rearrange(
         run, &source, toroid.map.texels, &handle->exemplar);
 }
@@ -105,7 +158,7 @@ build(
     otx_run *run = &call->run;
     osdtex_exemplar *handle = OTX_ZNEW(run->arena, osdtex_exemplar, 1);
     const otx_colour *colour;
-    int32_t made;
+    int32_t made, width;
 
     if (!handle)
         return otx_fail_memory(run, "colour");
@@ -116,6 +169,7 @@ build(
     input->wrap = (otx_exemplar_wrap)options->wrap;
     handle->arena = run->arena;
     OTX_TRY(otx_exemplar_build(run, colour, input, &handle->exemplar));
+    width = handle->exemplar.linear.width;
     /* Who says that it does not tile wants it so. */
     if (options->wrap != OSDTEX_WRAP_NO ||
         options->tileable == OSDTEX_TILEABLE_MAKE)
@@ -123,6 +177,7 @@ build(
     made = handle->info.made_tileable;
     handle->info = info_of(&handle->exemplar, type);
     handle->info.made_tileable = made;
+    handle->info.source_width = width;
     *out = handle;
     return OSDTEX_OK;
 }

@@ -39,7 +39,8 @@ choose_method(otx_run *run, const char *name, osdtex_mapping *handle)
 static otx_status
 choose_request(
     otx_run *run, const osdtex_surface *surface,
-    const osdtex_map_options *options, otx_map_request *out)
+    const osdtex_exemplar_info *exemplar, const osdtex_map_options *options,
+    otx_map_request *out)
 {
     const osdtex_cage_info *cage = &surface->cage->info;
 
@@ -62,6 +63,9 @@ choose_request(
             run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
             "the scale is a positive number of scene units, not %g",
             out->scale);
+    /* A scale means the picture as it was given, not what was cut out of it. */
+    if (exemplar->tile_size == 0)
+        out->scale *= (double)exemplar->width / exemplar->source_width;
     if (options->first_face < -1 || options->first_face >= cage->face_count)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
@@ -112,7 +116,8 @@ map(otx_run *run, const osdtex_surface *surface,
     handle->surface = surface;
     handle->exemplar = exemplar;
     handle->seed = ours.seed;
-    OTX_TRY(choose_request(run, surface, &ours, &handle->request));
+    OTX_TRY(
+        choose_request(run, surface, &exemplar->info, &ours, &handle->request));
     OTX_TRY(otx_map_input_constraints(
         run, ours.constraints, ours.follow, &handle->request.constraints));
     OTX_TRY(otx_several_take(run, &ours, handle));

@@ -433,6 +433,8 @@ say_plan(const job *j)
 {
     const osdtex_surface_info *surface = osdtex_surface_describe(j->surface);
     const osdtex_exemplar_info *e = osdtex_exemplar_describe(j->exemplar);
+    const double kept =
+        e->tile_size == 0 ? (double)e->width / e->source_width : 1.0;
     osdtex_method_info method = {0};
 
     osdtex_method_get(0, &method);
@@ -441,7 +443,8 @@ say_plan(const job *j)
         "with          %s: %d x %d, %g scene units wide\n"
         "by            %s\n",
         j->values->operands[0], surface->face_count, surface->level,
-        j->values->operands[1], e->width, e->height, j->map_options.scale,
+        j->values->operands[1], e->width, e->height,
+        kept * j->map_options.scale,
         j->map_options.method ? j->map_options.method : method.name);
     for (int k = 0; k < j->also.count; ++k)
         printf(

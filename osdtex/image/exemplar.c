@@ -505,6 +505,53 @@ otx_exemplar_build(
 }
 
 static otx_status
+crop(
+    otx_run *run, const otx_image *from, int32_t x, int32_t y, int32_t width,
+    int32_t height, otx_image *out)
+{
+    const size_t row = (size_t)width * (size_t)from->channels;
+
+    OTX_TRY(
+        otx_image_create(run, run->arena, width, height, from->channels, out));
+    for (int32_t j = 0; j < height; ++j)
+        memcpy(
+            otx_image_at(out, 0, j), otx_image_at(from, x, y + j),
+            row * sizeof *out->pixels);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_exemplar_crop(
+    otx_run *run, const otx_exemplar *from, int32_t x, int32_t y, int32_t width,
+    int32_t height, otx_exemplar *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    row_result *rows = OTX_ZNEW(run->scratch, row_result, height);
+    otx_exemplar made = *from;
+    otx_tileable test;
+
+    if (!rows)
+        return otx_fail_memory(run, stage);
+    OTX_TRY(crop(run, &from->linear, x, y, width, height, &made.linear));
+    OTX_TRY(crop(run, &from->match, x, y, width, height, &made.match));
+    OTX_TRY(crop(run, &from->lab, x, y, width, height, &made.lab));
+    OTX_TRY(measure_both(run, rows, &made));
+    if (width < from->lab.width)
+    {
+        OTX_TRY(otx_tileable_test(run, &made.lab, 0, &test));
+        made.wrap_x = test.tiles;
+    }
+    if (height < from->lab.height)
+    {
+        OTX_TRY(otx_tileable_test(run, &made.lab, 1, &test));
+        made.wrap_y = test.tiles;
+    }
+    *out = made;
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
+
+static otx_status
 rearrange(
     otx_run *run, const otx_image *from, const int32_t *texels, otx_image *out)
 {

@@ -84,6 +84,12 @@ otx_status otx_exemplar_resize(
     otx_run *run, const otx_exemplar *from, int32_t width, int32_t height,
     otx_exemplar *out);
 
+/* The rectangle of width x height at (x, y) of `from`, in run->arena. Along
+ * axes that are cut off it is tested whether it tiles. */
+otx_status otx_exemplar_crop(
+    otx_run *run, const otx_exemplar *from, int32_t x, int32_t y, int32_t width,
+    int32_t height, otx_exemplar *out);
+
 /* Arranges the texels of `from` anew, in run->arena: texel i of the result, of
  * the same size, is texels[i] of it. It tiles in both axes. */
 otx_status otx_exemplar_rearrange(

@@ -2,9 +2,9 @@
  *
  * At full size and at half, where pictures have up to about 512 texels a side,
  * larger ones accordingly: windows of eight texels then are as wide as a joint
- * or a pebble, and see one that ends or grows together. Wider ones mostly see
- * that no two places are alike, and medians that most of a cut is good: neither
- * told stones that were fused. */
+ * or a pebble, and see one that ends or grows together. At a quarter they are
+ * as wide as a course, and see one that meets another; fused stones they do not
+ * see, nor do medians, which see that most of a cut is good. */
 #include "tiling/oddness.h"
 
 #include "tiling/window_search.h"
@@ -190,14 +190,19 @@ otx_oddness_measure(
     const int32_t factor = (least + USUAL_SIDE / 2) / USUAL_SIDE;
     const int32_t fine = factor > 1 ? factor : 1;
     otx_texel_map source;
-    double small, large;
+    double most = 0.0;
 
     OTX_TRY(otx_texel_map_create(
         run, run->scratch, map->width, map->height, &source));
     otx_texel_pool_lay(pool, (otx_texel_window){0, 0, 0}, &source);
-    OTX_TRY(measure_at(run, pool, &source, map, fine, &small));
-    OTX_TRY(measure_at(run, pool, &source, map, 2 * fine, &large));
-    *out = fmax(small, large);
+    for (int32_t f = fine; f <= 4 * fine; f *= 2)
+    {
+        double odd;
+
+        OTX_TRY(measure_at(run, pool, &source, map, f, &odd));
+        most = fmax(most, odd);
+    }
+    *out = most;
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }

@@ -11,7 +11,7 @@
 
 #include "tiling/texel_pool.h"
 
-/* The larger of the ratios at two sizes; 0 when `map`, of the picture's size,
+/* The largest of the ratios at three sizes; 0 when `map`, of the picture's size,
  * has no cuts. MEMORY. */
 otx_status otx_oddness_measure(
     otx_run *run, const otx_texel_pool *pool, const otx_texel_map *map,

@@ -352,6 +352,39 @@ an_exemplar_from_pixels(void **state)
     osdtex_exemplar_destroy(exemplar);
 }
 
+/* Waves of 24 texels that the picture cuts off, with a step along one axis and
+ * with none along the other, are cropped to whole ones; a scale goes on meaning
+ * the picture that was given. */
+static void
+a_lattice_is_cropped_to_tile(void **state)
+{
+    enum
+    {
+        SIDE = 108
+    };
+    static float pixels[SIDE * SIDE * 3];
+    osdtex_exemplar_options options = osdtex_exemplar_options_default();
+    const osdtex_exemplar_info *info;
+    osdtex_image *image;
+    osdtex_exemplar *exemplar;
+
+    options.tileable = OSDTEX_TILEABLE_AUTO;
+    for (int i = 0; i < SIDE * SIDE * 3; ++i)
+        pixels[i] =
+            (float)(0.3 + 0.1 * cos(i / 3 % SIDE * 0.26179939) + 0.1 * sin(i / 3 / SIDE * 0.26179939));
+    assert_int_equal(
+        osdtex_image_create(*state, SIDE, SIDE, 3, pixels, &image), OSDTEX_OK);
+    assert_int_equal(
+        osdtex_exemplar_create(*state, image, &options, &exemplar), OSDTEX_OK);
+    info = osdtex_exemplar_describe(exemplar);
+    assert_int_equal(info->width, 96);
+    assert_int_equal(info->height, 96);
+    assert_int_equal(info->source_width, SIDE);
+    assert_true(info->wrap_x && info->wrap_y && info->made_tileable);
+    osdtex_exemplar_destroy(exemplar);
+    osdtex_image_destroy(image);
+}
+
 /* Halves come back as they were written, and PNG as integers over 255. */
 static void
 an_image_is_read_back(void **state)
@@ -465,6 +498,7 @@ main(void)
         cmocka_unit_test(every_setting_takes_its_own_default),
         WITH_CONTEXT(the_whole_pipe),
         WITH_CONTEXT(an_exemplar_from_pixels),
+        WITH_CONTEXT(a_lattice_is_cropped_to_tile),
         WITH_CONTEXT(an_image_is_read_back),
         cmocka_unit_test(failing_allocations_leak_nothing),
         cmocka_unit_test(cancelling_leaks_nothing),
