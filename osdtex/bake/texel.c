@@ -803,6 +803,8 @@ shade(block *b)
         for (int32_t x = 0; x < b->raster.width; ++x)
             if (is_needed(b, x, y))
                 shade_texel(b, x, y, cells);
+            else
+                b->owners[y * b->raster.width + x] = -1;
 }
 
 /* The block's place and size, and the apron that is looked at, too. */
