@@ -278,6 +278,22 @@ place_first(
            (e->wrap_y || high.y - low.y <= h - 1.0);
 }
 
+/* Degrees about the continuing orientation that are left out where exact
+ * continuation is to be avoided: on what is flat it would always win, and the
+ * picture repeat itself. */
+static const double AVOIDED = 5.0;
+
+/* From -drift to drift as `share` goes from 0 to 1, but for what is avoided. */
+static double
+offset_of(const otx_hierarchical_settings *s, double drift, double share)
+{
+    const double avoided =
+        s->continuation ? 0.0 : fmin(AVOIDED * OTX_PI / 180.0, 0.5 * drift);
+    const double x = 2.0 * share - 1.0;
+
+    return copysign(avoided, x) + x * (drift - avoided);
+}
+
 /* Orientations to search, into angles[360]; how many. Drawn at random, so that
  * the exact continuation of a single neighbour is not among them unless it is
  * wanted [Soler02, sec. 4.2]; within `drift` of what continues the neighbours,
@@ -302,9 +318,9 @@ list_angles(
                         2.0 * OTX_PI * k / s->angles;
         else
             angles[k] = continuing +
-                        drift * (2.0 * (k + (s->continuation ? 0.5 : chance)) /
-                                     s->angles -
-                                 1.0);
+                        offset_of(
+                            s, drift,
+                            (k + (s->continuation ? 0.5 : chance)) / s->angles);
     return s->angles;
 }
 

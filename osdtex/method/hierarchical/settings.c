@@ -44,7 +44,7 @@ const otx_option otx_hierarchical_options[] = {
      CONTINUATION,
      "allow: a patch may continue its neighbour's chart exactly, which shows "
      "no seam and repeats a tiling exemplar; avoid: orientations are drawn at "
-     "random"},
+     "random, within drift none that continues it"},
     {"coarse", OTX_OPTION_INTEGER, FIELD(coarse), -1, 6, -1, NULL,
      "Halvings of the exemplar for the exhaustive search; -1 chooses about "
      "64 texels (paper: 0)"},

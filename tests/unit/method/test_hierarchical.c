@@ -4,6 +4,7 @@
 #include "unit/cluster/sheets.h"
 
 #include "mapping/measure.h"
+#include "mapping/seam.h"
 #include "method/hierarchical/hierarchical.h"
 
 #include <stdlib.h>
@@ -248,6 +249,7 @@ the_first_patch_is_where_the_user_wants_it(void **state)
         j->request.first_angle = 0.1;
         set(j, "cut", "off");
         set(j, "relax", "off");
+        set(j, "guide", "off");
         set(j, "mode", k < 2 ? "paper" : "best");
         set(j, "clusters", "subdivision");
         assert_int_equal(map(j), OSDTEX_OK);
@@ -269,6 +271,96 @@ the_first_patch_is_where_the_user_wants_it(void **state)
         assert_true(fabs(atan2(edge.y, edge.x) - 0.1) < 1e-3);
         test_run_destroy(j->run);
     }
+}
+
+/* Angle from the first edge of a leaf face on the plane z = 0 to the same edge
+ * in the exemplar. */
+static double
+turn_of(const job *j, int32_t face)
+{
+    const otx_level *leaf = otx_surface_leaf(j->surface);
+    const int32_t first = leaf->face_first[face];
+    const otx_vec2 way = otx_vec2_sub(
+        otx_seam_texel(&j->mapping, j->exemplar, first + 1),
+        otx_seam_texel(&j->mapping, j->exemplar, first));
+    const otx_vec3 edge = otx_vec3_sub(
+        otx_vec3_load(j->surface->points, leaf->face_verts[first + 1]),
+        otx_vec3_load(j->surface->points, leaf->face_verts[first]));
+
+    return atan2(way.y, way.x) - atan2(edge.y, edge.x);
+}
+
+static double
+turn_between(const job *j, int32_t a, int32_t b)
+{
+    return fabs(remainder(turn_of(j, a) - turn_of(j, b), 2.0 * OTX_PI));
+}
+
+static job *
+plane_with(const char *key, const char *value)
+{
+    job *j = make_job("plane", 3, 9.0, true);
+
+    set(j, key, value);
+    set(j, "relax", "off");
+    set(j, "guide", "off");
+    j->request.first_face = 5;
+    j->request.first_angle = 1.0;
+    assert_int_equal(map(j), OSDTEX_OK);
+    return j;
+}
+
+/* Mean turn against one face. */
+static double
+spread_with(const char *drift)
+{
+    job *j = plane_with("drift", drift);
+    const int32_t count = otx_surface_leaf(j->surface)->face_count;
+    double sum = 0.0;
+
+    for (int32_t f = 1; f < count; ++f)
+        sum += turn_between(j, f, 0);
+    test_run_destroy(j->run);
+    return sum / count;
+}
+
+static void
+the_first_direction_spreads(void **state)
+{
+    (void)state;
+    assert_true(spread_with("15") < 0.5 * spread_with("180"));
+}
+
+/* Share of the edges between patches where both have one direction. */
+static double
+continued_share(const char *continuation)
+{
+    job *j = plane_with("continuation", continuation);
+    const otx_level *leaf = otx_surface_leaf(j->surface);
+    int32_t borders = 0, continued = 0;
+
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        for (int32_t k = 0; k < otx_level_face_size(leaf, f); ++k)
+        {
+            const int32_t other = otx_level_neighbour(leaf, f, k);
+
+            if (other < 0 ||
+                j->mapping.face_patch[f] == j->mapping.face_patch[other])
+                continue;
+            ++borders;
+            continued += turn_between(j, f, other) < 0.02;
+        }
+    test_run_destroy(j->run);
+    assert_true(borders > 0);
+    return (double)continued / borders;
+}
+
+static void
+a_tiling_exemplar_does_not_continue_itself(void **state)
+{
+    (void)state;
+    assert_true(continued_share("allow") > 0.9);
+    assert_true(continued_share("avoid") < 0.2);
 }
 
 static void
@@ -418,6 +510,8 @@ main(void)
         cmocka_unit_test(the_same_bytes_from_any_number_of_threads),
         cmocka_unit_test(seeds_differ),
         cmocka_unit_test(the_first_patch_is_where_the_user_wants_it),
+        cmocka_unit_test(the_first_direction_spreads),
+        cmocka_unit_test(a_tiling_exemplar_does_not_continue_itself),
         cmocka_unit_test(no_place_near_the_border_is_left),
         cmocka_unit_test(every_part_can_be_switched),
         cmocka_unit_test(relaxing_and_choosing_lower_the_seams),
