@@ -2,6 +2,7 @@
 #include "bake/join.h"
 
 #include "bake/facet.h"
+#include "bake/mixture.h"
 #include "mapping/source.h"
 
 #include <stdlib.h>
@@ -139,7 +140,9 @@ set_edge(const otx_join *join, int32_t rim, otx_join_edge *out)
     out->rim = rim;
     out->goes_on = other >= 0 && page->layout->covered[other] &&
                    otx_source_of(join->mapping, other) ==
-                       otx_source_of(join->mapping, r->face);
+                       otx_source_of(join->mapping, r->face) &&
+                   !otx_mixture_has(join->mapping, r->face) &&
+                   !otx_mixture_has(join->mapping, other);
     if (!out->goes_on)
         return;
     out->texture = &join->textures[otx_source_of(join->mapping, r->face)];

@@ -8,6 +8,7 @@
 #include "bake/texel.h"
 
 #include "bake/join.h"
+#include "bake/mixture.h"
 #include "mapping/source.h"
 
 #include <string.h>
@@ -135,7 +136,8 @@ set_piece(const block *b, int64_t id, otx_texel_piece *piece)
     piece->probes =
         otx_texture_measure(piece->texture, piece->uv_dx, piece->uv_dy);
     piece->is_plain = piece->probes.count == 1 && piece->probes.level == 0 &&
-                      piece->probes.fraction == 0.0;
+                      piece->probes.fraction == 0.0 &&
+                      !otx_mixture_has(source->mapping, piece->facet.face);
     if (!piece->is_plain)
         piece->probes = otx_texture_measure(
             piece->texture, otx_vec2_scale(share, piece->uv_dx),
@@ -295,6 +297,13 @@ color_at(const block *b, const otx_walk *walk, double share, float *color)
     }
 
     const otx_texture *texture = texture_of(source, walk->facet.face);
+
+    if (otx_mixture_has(source->mapping, walk->facet.face))
+    {
+        otx_mixture_color(source, texture, walk, share, color);
+        return;
+    }
+
     const otx_texture_probes probes = otx_texture_measure(
         texture, otx_vec2_scale(share, mix_uv(source, &walk->facet, walk->dx)),
         otx_vec2_scale(share, mix_uv(source, &walk->facet, walk->dy)));
@@ -318,6 +327,14 @@ static void
 sample_color(
     const block *b, const otx_texel_piece *piece, otx_vec2 at, float *color)
 {
+    if (otx_mixture_has(b->source->mapping, piece->facet.face))
+    {
+        const otx_walk walk = place_at(piece, at);
+
+        otx_mixture_color(
+            b->source, piece->texture, &walk, 1.0 / b->raster.n, color);
+        return;
+    }
     probe(
         b->source, piece->texture, &piece->probes, piece_uv(piece, at), color);
 }

@@ -7,6 +7,7 @@
 #ifndef OTX_MAPPING_MAPPING_H
 #define OTX_MAPPING_MAPPING_H
 
+#include "mapping/lookups.h"
 #include "math/vec.h"
 #include "surface/surface.h"
 
@@ -42,6 +43,7 @@ typedef struct otx_mapping
                                     * from; NULL: all from the first */
     const otx_guide *guide;        /* that the first's patches follow; NULL */
     const otx_cell_map *lattice;   /* that it shows; NULL none */
+    const otx_lookups *lookups;    /* where there are several; NULL nowhere */
 } otx_mapping;
 
 #endif

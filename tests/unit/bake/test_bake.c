@@ -274,6 +274,81 @@ seams_are_blended_within_their_width(void **state)
     }
 }
 
+/* Two lookups for every face left of x = 1: its own, and one 0.2 further in u
+ * that takes over towards x = 1. */
+static void
+look_up_twice(otx_run *run, otx_mapping *mapping)
+{
+    const otx_level *leaf = otx_surface_leaf(mapping->surface);
+    otx_lookups *lookups = OTX_NEW(run->arena, otx_lookups, 1);
+    int64_t *first = OTX_ZNEW(run->arena, int64_t, leaf->face_count + 1);
+    otx_lookup *items =
+        OTX_NEW(run->arena, otx_lookup, 2 * (int64_t)leaf->corner_count);
+
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        const int32_t corner = leaf->face_first[f];
+        const bool left = leaf->face_cage[f] % 2 == 0;
+
+        first[f + 1] = first[f] + (left ? 8 : 0);
+        for (int32_t i = 0; left && i < 8; ++i)
+        {
+            const int32_t c = corner + i % 4;
+            const float x = mapping->surface->points[3 * leaf->face_verts[c]];
+
+            items[first[f] + i] = (otx_lookup){
+                {mapping->uvs[2 * c] + (i < 4 ? 0.0f : 0.2f),
+                 mapping->uvs[2 * c + 1]},
+                i < 4 ? 1.0f - x : x};
+        }
+    }
+    *lookups = (otx_lookups){first, items};
+    mapping->lookups = lookups;
+}
+
+/* The mean of both, and no tear where the second one goes on. */
+static void
+several_lookups_are_mixed(void **state)
+{
+    enum
+    {
+        N = 2,
+        SIDE = 256
+    };
+    otx_run *run = test_run_create();
+    const otx_surface *surface = flat_surface(run, N, 3);
+    otx_mapping *mapping = flat_mapping(run, surface, N);
+    const otx_exemplar *exemplar = flat_ramp(run, 64);
+
+    (void)state;
+    look_up_twice(run, mapping);
+    tear(mapping, 1.0);
+
+    const otx_layout layout =
+        flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, 8);
+    const flat_levels baked =
+        flat_bake(run, mapping, exemplar, &layout, &COLOR, 0);
+
+    for (int32_t l = 0; l < 3; ++l)
+        for (int32_t y = 0; y < baked.levels[l].height; ++y)
+            for (int32_t x = 0; x < baked.levels[l].width; ++x)
+            {
+                const expected e =
+                    expect(&layout, N, baked.levels[l].width, x, y);
+                const double own = 0.25 + 0.5 * e.x / N;
+                const float *p = otx_image_at(&baked.levels[l], x, y);
+
+                if (!e.on_surface || e.beyond > 3.0)
+                    continue;
+                if (fabs(p[0] - (own + 0.2 * fmin(e.x, 1.0))) > 3e-3 ||
+                    fabs(p[1] - (0.25 + 0.5 * e.y / N)) > 3e-3)
+                    fail_msg(
+                        "level %d texel %d %d: %g, not %g", l, x, y,
+                        (double)p[0], own + 0.2 * fmin(e.x, 1.0));
+            }
+    test_run_destroy(run);
+}
+
 static void
 a_constant_stays_constant(void **state)
 {
@@ -534,6 +609,7 @@ main(void)
         cmocka_unit_test(margins_show_what_is_across_the_edge),
         cmocka_unit_test(no_level_jumps_more_across_blocks_than_inside),
         cmocka_unit_test(seams_are_blended_within_their_width),
+        cmocka_unit_test(several_lookups_are_mixed),
         cmocka_unit_test(a_constant_stays_constant),
         cmocka_unit_test(threads_make_no_difference),
         cmocka_unit_test(numbers_are_those_of_the_mapping),
