@@ -253,6 +253,8 @@ put_lattice(json_t *mapping, const otx_map_stats *stats)
     set_int(l, "cancelled", stats->cancelled);
     set_real(l, "clean_area_share", stats->clean_share);
     set_real(l, "filled_area_share", stats->filled_share);
+    set_int(l, "blended_faces", stats->blended_faces);
+    set_real(l, "blended_area_share", stats->blended_share);
     set_real(l, "gradient_error", stats->gradient_error);
 }
 

@@ -44,6 +44,8 @@ typedef struct otx_map_stats
     int32_t cancelled;      /* dislocations that were made to vanish */
     double clean_share;     /* of the area, over a cell from any */
     double filled_share;    /* of the area, covered by patches */
+    int32_t blended_faces;  /* that show the mean of several lookups */
+    double blended_share;   /* of the area, theirs */
     double gradient_error;  /* RMS of the steps' departure from the field's
                              * gradient, relative to it */
 } otx_map_stats;

@@ -131,16 +131,16 @@ share_out(
     }
 }
 
-/* Cell coordinates of the leaf corners, [corner_count]. */
-static otx_status
-refine_cells(otx_material *m, otx_vec2 **out)
+otx_status
+otx_material_refine(
+    const otx_material *m, otx_arena *arena, otx_vec2 *from, otx_vec2 **out)
 {
-    *out = m->phase.cells;
+    *out = from;
     for (int32_t l = m->level; l + 1 < m->surface->level_count; ++l)
     {
         const otx_level *level = &m->surface->levels[l];
         const otx_level *finer = level + 1;
-        otx_vec2 *cells = OTX_NEW(m->run->arena, otx_vec2, finer->corner_count);
+        otx_vec2 *cells = OTX_NEW(arena, otx_vec2, finer->corner_count);
 
         if (!cells)
             return otx_fail_memory(m->run, "map");
@@ -162,7 +162,7 @@ lay_uvs(otx_material *m)
     m->open = OTX_ZNEW(m->run->arena, uint8_t, leaf->face_count);
     if (!m->uvs || !m->face_patch || !m->open)
         return otx_fail_memory(m->run, "map");
-    OTX_TRY(refine_cells(m, &m->cells));
+    OTX_TRY(otx_material_refine(m, m->run->arena, m->phase.cells, &m->cells));
     otx_refill_clear(m);
     if (m->courses.count > 0)
         OTX_TRY(otx_coursing_lay(m));
@@ -213,12 +213,16 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
 
     OTX_TRY(choose_lattice(&m));
     OTX_TRY(otx_coursing_choose(&m));
+    if (m.settings->fill == OTX_FILL_BLEND)
+        OTX_TRY(otx_blend_check(&m));
     otx_map_stats_stage(stats, "field");
     OTX_TRY(solve_field(&m));
     otx_map_stats_stage(stats, "phase");
     OTX_TRY(solve_phases(&m));
     OTX_TRY(lay_uvs(&m));
     OTX_TRY(otx_refill_run(&m, out));
+    if (m.settings->fill == OTX_FILL_BLEND)
+        OTX_TRY(otx_blend_run(&m, out));
     return show_lattice(&m, out);
 }
 

@@ -20,6 +20,13 @@
 
 enum
 {
+    OTX_FILL_OFF,
+    OTX_FILL_ON,
+    OTX_FILL_BLEND
+};
+
+enum
+{
     OTX_COURSING_AUTO,
     OTX_COURSING_ON,
     OTX_COURSING_OFF
@@ -97,5 +104,15 @@ void otx_refill_clear(otx_material *m);
 otx_status otx_refill_choose(otx_material *m);
 /* Covers them by patches that follow the field. */
 otx_status otx_refill_run(otx_material *m, otx_mapping *out);
+
+/* blend.c: whether the exemplar and the coordinates allow for it. SUPPORT. */
+otx_status otx_blend_check(const otx_material *m);
+/* Gives the faces of singular rings a lookup for each of their corners. */
+otx_status otx_blend_run(otx_material *m, otx_mapping *out);
+
+/* Coordinates of leaf corners, [leaf corner_count] in `arena`, from those of
+ * the solved level: linear along edges and to the middle of faces. MEMORY. */
+otx_status otx_material_refine(
+    const otx_material *m, otx_arena *arena, otx_vec2 *from, otx_vec2 **out);
 
 #endif

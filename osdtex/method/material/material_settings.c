@@ -4,6 +4,7 @@
 #define FIELD(member) offsetof(otx_material_settings, member)
 
 static const char *const COURSES[] = {"auto", "on", "off", NULL};
+static const char *const FILL[] = {"off", "on", "blend", NULL};
 static const char *const SYMMETRY[] = {"auto", "one", "two", NULL};
 
 const otx_option otx_material_options[] = {
@@ -22,8 +23,12 @@ const otx_option otx_material_options[] = {
     {"clear", OTX_OPTION_REAL, FIELD(clear), 0, 8, 0.6, NULL,
      "Distance from a dislocation within which patches replace the periodic "
      "texture, in cells"},
-    {"fill", OTX_OPTION_SWITCH, FIELD(fill), 0, 0, 1, NULL,
-     "Replace the texture around dislocations by patches that continue it"},
+    {"fill", OTX_OPTION_CHOICE, FIELD(fill), 0, 0, OTX_FILL_ON, FILL,
+     "What replaces the texture around dislocations: on, patches that continue "
+     "it; blend, the texture as each corner of a face would continue it, "
+     "mixed, "
+     "which only a bake shows and which needs an exemplar that tiles; off, "
+     "nothing"},
     {"stretch", OTX_OPTION_REAL, FIELD(stretch), 1, 16, 2.5, NULL,
      "Factor by which the periodic texture may be squeezed or stretched before "
      "patches replace it"},

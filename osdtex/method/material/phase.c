@@ -416,6 +416,9 @@ lay_face(solver *s, int32_t face)
     for (int32_t i = first; i < level->face_first[face + 1]; ++i)
     {
         s->phase->cells[i] = at;
+        s->phase->parts[i] = (otx_vec2){
+            s->sense[i] * s->turn[0][level->face_verts[i]],
+            s->sense[i] * s->turn[1][level->face_verts[i]]};
         at.x += otx_phase_face_step(s, face, i, 0);
         at.y += otx_phase_face_step(s, face, i, 1);
     }
@@ -475,22 +478,26 @@ allocate(solver *s)
 
     s->phase->match = OTX_NEW(arena, int8_t, level->edge_count);
     s->phase->cells = OTX_NEW(arena, otx_vec2, level->corner_count);
+    s->phase->parts = OTX_NEW(arena, otx_vec2, level->corner_count);
     s->phase->defect = OTX_NEW(arena, uint8_t, level->face_count);
     s->angles = OTX_NEW(scratch, double, level->face_count);
     s->sense = OTX_ZNEW(scratch, int8_t, level->corner_count);
     s->mass = OTX_ZNEW(scratch, double, level->vert_count);
-    s->singular = OTX_ZNEW(scratch, uint8_t, level->vert_count);
+    s->singular = OTX_ZNEW(arena, uint8_t, level->vert_count);
+    s->phase->turned = s->singular;
     for (int k = 0; k < 2; ++k)
     {
-        s->wish[k] = OTX_NEW(scratch, double, level->edge_count);
+        s->wish[k] = OTX_NEW(arena, double, level->edge_count);
+        s->phase->wish[k] = s->wish[k];
         s->step[k] = OTX_NEW(scratch, double, level->edge_count);
         s->z[k] = OTX_NEW(scratch, double, 2 * (int64_t)level->vert_count);
         s->turn[k] = OTX_NEW(scratch, double, level->vert_count);
         if (!s->wish[k] || !s->step[k] || !s->z[k] || !s->turn[k])
             return otx_fail_memory(s->run, "field");
     }
-    if (!s->phase->match || !s->phase->cells || !s->phase->defect ||
-        !s->angles || !s->sense || !s->mass || !s->singular)
+    if (!s->phase->match || !s->phase->cells || !s->phase->parts ||
+        !s->phase->defect || !s->angles || !s->sense || !s->mass ||
+        !s->singular)
         return otx_fail_memory(s->run, "field");
     return OSDTEX_OK;
 }

@@ -38,6 +38,17 @@ typedef struct otx_phase
     /* [corner_count] cells; whole in a face that is no defect, and up to
      * whole cells and sense the same in its neighbour. */
     otx_vec2 *cells;
+    /* [face_count] once cells are equal across edges: 1, or -1 where a face has
+     * changed its sense for that. */
+    int8_t *sense;
+    /* [edge_count] cells along the half-edge of the edge's first face that the
+     * field asks for, in the sense that it had before. */
+    double *wish[2];
+    uint8_t *turned; /* [vert_count] 1: senses do not close around it, so that
+                      * only whole and half cells are the same in all faces */
+    /* [corner_count] what the vertex has of cells, without whole ones, in the
+     * sense that the face had before: around a defect, cells may differ. */
+    otx_vec2 *parts;
     uint8_t *defect; /* [face_count] 1: steps do not sum to zero */
     int32_t defect_count;
     int32_t cancelled; /* dislocations that were made to vanish */

@@ -151,7 +151,7 @@ otx_refill_clear(otx_material *m)
     const otx_level *leaf = otx_surface_leaf(m->surface);
 
     for (int32_t f = 0; f < leaf->face_count; ++f)
-        m->open[f] = m->settings->fill && !leaf->face_hole[f] &&
+        m->open[f] = m->settings->fill == OTX_FILL_ON && !leaf->face_hole[f] &&
                      (in_singular_ring(m, f) ||
                       m->distance[otx_material_solved_face(m, f)] <=
                           m->settings->clear * m->cell);
@@ -165,9 +165,9 @@ otx_refill_choose(otx_material *m)
 
     for (int32_t f = 0; f < leaf->face_count; ++f)
         m->open[f] |=
-            m->settings->fill && !leaf->face_hole[f] &&
+            m->settings->fill == OTX_FILL_ON && !leaf->face_hole[f] &&
             (!is_unfolded(m, m->cells, f) || !is_sound(m, m->cells, f));
-    if (m->settings->fill)
+    if (m->settings->fill == OTX_FILL_ON)
         OTX_TRY(open_narrow(m));
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {

@@ -161,7 +161,7 @@ otx_phase_unwrap(otx_run *run, otx_phase *phase, const double *distance)
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     const int32_t count = phase->connection->level->face_count;
     walk w = {
-        phase, distance, OTX_ZNEW(run->scratch, int8_t, count),
+        phase, distance, OTX_ZNEW(run->arena, int8_t, count),
         otx_queue_make(run->scratch)};
     otx_queue seeds = otx_queue_make(run->scratch);
     otx_queue_entry entry;
@@ -172,6 +172,7 @@ otx_phase_unwrap(otx_run *run, otx_phase *phase, const double *distance)
     while (fine && otx_queue_pop(&seeds, &entry))
         if (w.flip[entry.item] == 0)
             fine = visit_all(&w, entry.item);
+    phase->sense = w.flip;
     otx_arena_release(run->scratch, mark);
     return fine ? OSDTEX_OK : otx_fail_memory(run, "field");
 }
