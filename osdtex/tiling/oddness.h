@@ -11,8 +11,8 @@
 
 #include "tiling/texel_pool.h"
 
-/* The largest of the ratios at three sizes; 0 when `map`, of the picture's size,
- * has no cuts. MEMORY. */
+/* The largest of the ratios at three sizes; 0 when `map`, of the picture's
+ * size, has no cuts. MEMORY. */
 otx_status otx_oddness_measure(
     otx_run *run, const otx_texel_pool *pool, const otx_texel_map *map,
     double *out);
