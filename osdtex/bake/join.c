@@ -5,6 +5,9 @@
 #include "bake/mixture.h"
 #include "mapping/source.h"
 
+/* The table of the C++ library is not linked. */
+#define IMATH_HALF_NO_LOOKUP_TABLE
+#include <Imath/half.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,9 +19,6 @@ enum
 /* How far a rim may be from the middle between texels that it runs through, in
  * half texels: coordinates are rounded to floats. */
 static const double MIDWAY = 0.01;
-
-/* Half has no larger numbers. */
-static const float HALF_MAX = 65504.0f;
 
 /* Exemplar UVs that differ by less are one: rounding. */
 static const double SAME = 1e-5;
@@ -264,13 +264,13 @@ look_up(const otx_join *join, lookup at, int32_t channel)
 /* ---- texels ---------------------------------------------------------------
  */
 
-/* As the file will have it: 11 significant bits [Dekker71]. */
+/* As the file will have it. */
 static float
 half_of(float value)
 {
-    const float far = value * 8193.0f;
-
-    return fabsf(value) < HALF_MAX ? far - (far - value) : value;
+    return fabsf(value) < (float)HALF_MAX
+               ? imath_half_to_float(imath_float_to_half(value))
+               : value;
 }
 
 static float
