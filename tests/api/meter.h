@@ -71,4 +71,65 @@ metered(meter *m)
     return options;
 }
 
+/* Moments to try: all of the first `dense`, then ever fewer, by k / `sparse`.
+ */
+typedef struct moments
+{
+    long dense, sparse;
+} moments;
+
+static inline long
+next_moment(const moments *m, long k)
+{
+    return k < m->dense ? k + 1 : k + 1 + k / m->sparse;
+}
+
+/* Runs a whole job of a host over and over, a later allocation failing each
+ * time: nothing leaks. `job` frees what it made. */
+static inline void
+fail_at_moments(const moments *at, osdtex_status (*job)(osdtex_context *))
+{
+    for (long k = 0;; k = next_moment(at, k))
+    {
+        meter m = {.fail_at = k, .cancel_at = -1};
+        const osdtex_context_options options = metered(&m);
+        osdtex_context *context;
+        osdtex_status status;
+
+        status = osdtex_context_create(&options, &context);
+        if (status == OSDTEX_OK)
+            status = job(context);
+        osdtex_context_destroy(context);
+        assert_int_equal(m.blocks, 0);
+        if (m.calls <= k)
+            return;
+        /* A sentence that could not be kept is no failure. */
+        assert_true(status == OSDTEX_ERROR_MEMORY || status == OSDTEX_OK);
+    }
+}
+
+/* The same, cancelled a progress call later each time. */
+static inline void
+cancel_at_moments(const moments *at, osdtex_status (*job)(osdtex_context *))
+{
+    for (long k = 0;; k = next_moment(at, k))
+    {
+        meter m = {.fail_at = -1, .cancel_at = k};
+        const osdtex_context_options options = metered(&m);
+        osdtex_context *context;
+        osdtex_status status;
+
+        assert_int_equal(osdtex_context_create(&options, &context), OSDTEX_OK);
+        status = job(context);
+        osdtex_context_destroy(context);
+        assert_int_equal(m.blocks, 0);
+        if (m.progress_calls <= k)
+        {
+            assert_int_equal(status, OSDTEX_OK);
+            return;
+        }
+        assert_int_equal(status, OSDTEX_ERROR_CANCELLED);
+    }
+}
+
 #endif

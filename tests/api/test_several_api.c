@@ -205,61 +205,31 @@ exemplars_of_two_spaces_are_refused(void **state)
     pipe_destroy(&p);
 }
 
-/* All of the first few dozen moments, then ever fewer. */
-static long
-next_moment(long k)
+static const moments MOMENTS = {20, 3};
+
+/* A host's whole job. */
+static osdtex_status
+run_once(osdtex_context *context)
 {
-    return k < 20 ? k + 1 : k + 1 + k / 3;
+    pipe p;
+    const osdtex_status status = pipe_run(context, &p);
+
+    pipe_destroy(&p);
+    return status;
 }
 
 static void
 failing_allocations_leak_nothing(void **state)
 {
     (void)state;
-    for (long k = 0;; k = next_moment(k))
-    {
-        meter m = {.fail_at = k, .cancel_at = -1};
-        const osdtex_context_options options = metered(&m);
-        osdtex_context *context;
-        osdtex_status status;
-        pipe p = {0};
-
-        status = osdtex_context_create(&options, &context);
-        if (status == OSDTEX_OK)
-            status = pipe_run(context, &p);
-        pipe_destroy(&p);
-        osdtex_context_destroy(context);
-        assert_int_equal(m.blocks, 0);
-        if (m.calls <= k)
-            return;
-        assert_true(status == OSDTEX_ERROR_MEMORY || status == OSDTEX_OK);
-    }
+    fail_at_moments(&MOMENTS, run_once);
 }
 
 static void
 cancelling_leaks_nothing(void **state)
 {
     (void)state;
-    for (long k = 0;; k = next_moment(k))
-    {
-        meter m = {.fail_at = -1, .cancel_at = k};
-        const osdtex_context_options options = metered(&m);
-        osdtex_context *context;
-        osdtex_status status;
-        pipe p;
-
-        assert_int_equal(osdtex_context_create(&options, &context), OSDTEX_OK);
-        status = pipe_run(context, &p);
-        pipe_destroy(&p);
-        osdtex_context_destroy(context);
-        assert_int_equal(m.blocks, 0);
-        if (m.progress_calls <= k)
-        {
-            assert_int_equal(status, OSDTEX_OK);
-            return;
-        }
-        assert_int_equal(status, OSDTEX_ERROR_CANCELLED);
-    }
+    cancel_at_moments(&MOMENTS, run_once);
 }
 
 static int
