@@ -132,22 +132,26 @@ take_exemplars(
 
 /* -- where ------------------------------------------------------------- */
 
+/* Readers release the scratch arena, so the picture has one of its own. */
 static otx_status
 use_mask(
     otx_run *run, const osdtex_mapping *handle, const char *path,
     uint8_t *demand)
 {
-    const otx_arena_mark mark = otx_arena_here(run->scratch);
     otx_run aside = *run;
     otx_picture picture;
+    otx_status status;
 
-    aside.arena = run->scratch;
-    OTX_TRY(otx_picture_read(&aside, path, &picture));
-    OTX_TRY(otx_demand_picture(
-        run, &handle->surface->surface, &picture.image, path,
-        handle->source_count, demand));
-    otx_arena_release(run->scratch, mark);
-    return OSDTEX_OK;
+    aside.arena = otx_arena_create(run->heap);
+    if (!aside.arena)
+        return otx_fail_memory(run, STAGE);
+    status = otx_picture_read(&aside, path, &picture);
+    if (status == OSDTEX_OK)
+        status = otx_demand_picture(
+            run, &handle->surface->surface, &picture.image, path,
+            handle->source_count, demand);
+    otx_arena_destroy(aside.arena);
+    return status;
 }
 
 /* Everything that says where, each over what came before. */

@@ -3,11 +3,13 @@
 #include "meter.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum
 {
     SIDE = 40,
+    MASK = 512,
     FACES = 16 /* of the cage */
 };
 
@@ -103,18 +105,26 @@ pipe_run(osdtex_context *context, pipe *p)
     return status;
 }
 
+/* Maps with no transition: each face shows what is asked for. */
 static void
-patches_say_which_they_are_from(void **state)
+expect_halves(osdtex_context *context, const char *mask)
 {
     const osdtex_mapping_info *info;
     const osdtex_surface_info *surface;
     osdtex_setting exact = {"transition", "0"};
     pipe p;
 
-    assert_int_equal(pipe_begin(*state, &p, NULL), OSDTEX_OK);
+    assert_int_equal(pipe_begin(context, &p, NULL), OSDTEX_OK);
     p.options.settings = &exact;
     p.options.setting_count = 1;
-    assert_int_equal(pipe_map(*state, &p), OSDTEX_OK);
+    if (mask)
+    {
+        /* As large as it is: resizing would leave room for the mask. */
+        p.also[0].scale = 0.0;
+        p.options.face_exemplars = NULL;
+    }
+    p.options.mask = mask;
+    assert_int_equal(pipe_map(context, &p), OSDTEX_OK);
     info = osdtex_mapping_describe(p.mapping);
     surface = osdtex_surface_describe(p.surface);
     assert_int_equal(info->exemplar_count, 2);
@@ -124,6 +134,40 @@ patches_say_which_they_are_from(void **state)
             info->patch_exemplar[info->face_patch[f]],
             p.faces[surface->face_cage[f]]);
     pipe_destroy(&p);
+}
+
+static void
+patches_say_which_they_are_from(void **state)
+{
+    expect_halves(*state, NULL);
+}
+
+/* Red on the right half. The heap spoils what it takes back. */
+static void
+a_mask_says_where_they_go(void **state)
+{
+    static float pixels[MASK * MASK * 3];
+    meter m = {.fail_at = -1, .cancel_at = -1};
+    const osdtex_context_options options = metered(&m);
+    osdtex_context *context;
+    osdtex_image *image;
+    char folder[] = "/tmp/osdtex-mask-XXXXXX", path[64];
+
+    (void)state;
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/mask.exr", folder);
+    for (int i = 0; i < MASK * MASK; ++i)
+        pixels[3 * i] = i % MASK >= MASK / 2 ? 1.0f : 0.0f;
+    assert_int_equal(osdtex_context_create(&options, &context), OSDTEX_OK);
+    assert_int_equal(
+        osdtex_image_create(context, MASK, MASK, 3, pixels, &image), OSDTEX_OK);
+    assert_int_equal(osdtex_image_write(context, image, path), OSDTEX_OK);
+    osdtex_image_destroy(image);
+    expect_halves(context, path);
+    osdtex_context_destroy(context);
+    remove(path);
+    remove(folder);
+    assert_int_equal(m.blocks, 0);
 }
 
 static void
@@ -258,6 +302,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         WITH_CONTEXT(patches_say_which_they_are_from),
+        cmocka_unit_test(a_mask_says_where_they_go),
         WITH_CONTEXT(one_exemplar_is_said_to_be_one),
         WITH_CONTEXT(what_cannot_be_is_refused),
         WITH_CONTEXT(exemplars_of_two_spaces_are_refused),
