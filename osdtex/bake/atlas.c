@@ -2,6 +2,7 @@
 #include "bake/atlas.h"
 
 #include "bake/extent.h"
+#include "image/udim.h"
 
 #include <string.h>
 
@@ -205,9 +206,9 @@ set_uvs(const otx_cage *cage, const packing *p, const otx_atlas *atlas)
             float *uv = atlas->uvs + 2 * (size_t)(first + k);
 
             uv[0] =
-                (float)(at[2] % OTX_ATLAS_COLUMNS + (at[0] + atlas->margin + width * c.x) / p->side);
+                (float)(at[2] % OTX_UDIM_COLUMNS + (at[0] + atlas->margin + width * c.x) / p->side);
             uv[1] =
-                (float)(at[2] / OTX_ATLAS_COLUMNS + (at[1] + atlas->margin + height * c.y) / p->side);
+                (float)(at[2] / OTX_UDIM_COLUMNS + (at[1] + atlas->margin + height * c.y) / p->side);
         }
     }
 }
@@ -236,7 +237,7 @@ check(otx_run *run, const otx_atlas_options *options)
 static otx_status
 check_tiles(otx_run *run, const otx_atlas *atlas)
 {
-    if (atlas->tile_count > OTX_ATLAS_COLUMNS * OTX_ATLAS_ROWS - 1)
+    if (atlas->tile_count > OTX_UDIM_COLUMNS * OTX_UDIM_ROWS - 1)
         return otx_fail(
             run, OSDTEX_ERROR_LIMIT, STAGE, OTX_NOWHERE,
             "the blocks fill %d tiles, more than UDIM can number; raise the "

@@ -13,9 +13,7 @@
 enum
 {
     OTX_ATLAS_MARGIN_MIN = 4,
-    OTX_ATLAS_MARGIN_MAX = 64,
-    OTX_ATLAS_COLUMNS = 10, /* UDIM: tiles in a row */
-    OTX_ATLAS_ROWS = 900    /* 1001 .. 9999 */
+    OTX_ATLAS_MARGIN_MAX = 64
 };
 
 typedef struct otx_atlas_options

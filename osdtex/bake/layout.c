@@ -3,6 +3,7 @@
 
 #include "bake/atlas.h"
 #include "bake/spread.h"
+#include "image/udim.h"
 #include "math/vec.h"
 
 #include <string.h>
@@ -11,9 +12,6 @@ static const char STAGE[] = "bake";
 
 enum
 {
-    FIRST_TILE = 1001,
-    COLUMNS = 10,
-    ROWS = 900,
     MARGIN_OWN = 16 /* texels continued beyond the rims of own UVs */
 };
 
@@ -271,13 +269,13 @@ span_of(const otx_layout *layout, int32_t face, span *out)
             low[i] = fmin(low[i], x);
             high[i] = fmax(high[i], x);
         }
-    if (!(low[0] > -OVER && low[1] > -OVER && high[0] < COLUMNS + OVER &&
-          high[1] < ROWS + OVER))
+    if (!(low[0] > -OVER && low[1] > -OVER &&
+          high[0] < OTX_UDIM_COLUMNS + OVER && high[1] < OTX_UDIM_ROWS + OVER))
         return false;
     span_along(low[0], high[0], &out->column, &out->column_end);
     span_along(low[1], high[1], &out->row, &out->row_end);
     /* The last place of the last row would be 10000. */
-    return out->row_end < ROWS || out->column_end < COLUMNS;
+    return out->row_end < OTX_UDIM_ROWS || out->column_end < OTX_UDIM_COLUMNS;
 }
 
 /* The corner of a leaf face that is farthest beyond the tiles. */
@@ -293,8 +291,8 @@ outermost_uv(const otx_layout *layout, int32_t face)
     {
         const float *uv = layout->leaf_uvs + 2 * (size_t)c;
         const double beyond = fmax(
-            fmax(-uv[0], uv[0] - (double)COLUMNS),
-            fmax(-uv[1], uv[1] - (double)ROWS));
+            fmax(-uv[0], uv[0] - (double)OTX_UDIM_COLUMNS),
+            fmax(-uv[1], uv[1] - (double)OTX_UDIM_ROWS));
 
         if (best && !(beyond > most))
             continue;
@@ -324,7 +322,7 @@ outside(otx_run *run, const otx_layout *layout, int32_t face)
 
 /* Counts or lists the faces of every tile.
  *
- *   counts  [COLUMNS * ROWS] faces of a tile; when listing, where the next
+ *   counts  [columns * rows] faces of a tile; when listing, where the next
  *           goes
  *   faces   NULL to count */
 static otx_status
@@ -343,7 +341,7 @@ visit_tiles(
         for (int32_t y = s.row; y < s.row_end; ++y)
             for (int32_t x = s.column; x < s.column_end; ++x)
             {
-                int32_t *count = &counts[y * COLUMNS + x];
+                int32_t *count = &counts[y * OTX_UDIM_COLUMNS + x];
 
                 if (faces)
                     faces[*count] = f;
@@ -356,7 +354,7 @@ visit_tiles(
 static otx_status
 list_tiles(otx_run *run, otx_layout *out, int32_t *counts)
 {
-    const int32_t numbers = COLUMNS * ROWS;
+    const int32_t numbers = OTX_UDIM_COLUMNS * OTX_UDIM_ROWS;
     int64_t total = 0;
     int32_t *tiles, *first, *faces;
 
@@ -380,7 +378,7 @@ list_tiles(otx_run *run, otx_layout *out, int32_t *counts)
     {
         if (counts[i] == 0)
             continue;
-        tiles[t] = FIRST_TILE + i;
+        tiles[t] = OTX_UDIM_FIRST + i;
         first[t + 1] = first[t] + counts[i];
         counts[i] = first[t++];
     }
@@ -394,7 +392,8 @@ static otx_status
 find_tiles(otx_run *run, otx_layout *out)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    int32_t *counts = OTX_ZNEW(run->scratch, int32_t, COLUMNS * ROWS);
+    int32_t *counts =
+        OTX_ZNEW(run->scratch, int32_t, OTX_UDIM_COLUMNS * OTX_UDIM_ROWS);
     const otx_status status =
         counts ? list_tiles(run, out, counts) : otx_fail_memory(run, STAGE);
 

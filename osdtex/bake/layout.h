@@ -2,8 +2,8 @@
  *
  * Either the cage's own UVs, carried to the leaves by the face-varying rule
  * that the surface was refined with, or an atlas made here, which goes with
- * the rule "linear all". UDIM tile 1001 + u + 10 v holds [u, u + 1] x
- * [v, v + 1]. */
+ * the rule "linear all". Tiles are UDIM's
+ * (image/udim.h). */
 #ifndef OTX_BAKE_LAYOUT_H
 #define OTX_BAKE_LAYOUT_H
 
@@ -59,18 +59,5 @@ typedef struct otx_layout
 otx_status otx_layout_build(
     otx_run *run, const otx_mapping *mapping, const otx_layout_options *options,
     otx_layout *out);
-
-/* Column and row of a UDIM tile, which is its lower left corner in UV. */
-static inline int32_t
-otx_layout_column(int32_t tile)
-{
-    return (tile - 1001) % 10;
-}
-
-static inline int32_t
-otx_layout_row(int32_t tile)
-{
-    return (tile - 1001) / 10;
-}
 
 #endif

@@ -8,6 +8,7 @@
 
 #include "bake/bin.h"
 #include "bake/layout.h"
+#include "image/udim.h"
 #include "math/vec.h"
 
 enum
@@ -66,8 +67,8 @@ otx_page_texel(const otx_page *page, int32_t corner)
     const int32_t number = page->layout->tiles[page->tile];
 
     return (otx_vec2){
-        ((double)uv[0] - otx_layout_column(number)) * page->side,
-        ((double)uv[1] - otx_layout_row(number)) * page->side};
+        ((double)uv[0] - otx_udim_column(number)) * page->side,
+        ((double)uv[1] - otx_udim_row(number)) * page->side};
 }
 
 /* The ends of an edge, in texels of the page. */
