@@ -727,9 +727,11 @@ extern "C"
         const osdtex_also *also; /* [also_count] */
         int32_t also_count;
         int32_t reserved;
-        /* A picture on the cage's UVs, in the unit square: black asks for the
-         * first exemplar, red, green and blue for the second to fourth. NULL
-         * none. */
+        /* A picture on the cage's UVs: black asks for the first exemplar, red,
+         * green and blue for the second to fourth. It fills the unit square;
+         * UVs beyond it need a picture for each UDIM tile that a face lies in,
+         * and a name that holds <UDIM> for 1001 and on, or <UVTILE> for u1_v1:
+         * "mask.<UDIM>.exr". They are read one after the other. NULL none. */
         const char *mask;
         /* [face_count of the cage] 0 the first exemplar, 1 the second, and so
          * on; NULL none. */

@@ -5,7 +5,7 @@
  * texture when they are baked, so all are in one linear space. */
 #include "api/several.h"
 
-#include "file/picture.h"
+#include "api/mask_pictures.h"
 #include "method/demand.h"
 
 #include <math.h>
@@ -132,28 +132,6 @@ take_exemplars(
 
 /* -- where ------------------------------------------------------------- */
 
-/* Readers release the scratch arena, so the picture has one of its own. */
-static otx_status
-use_mask(
-    otx_run *run, const osdtex_mapping *handle, const char *path,
-    uint8_t *demand)
-{
-    otx_run aside = *run;
-    otx_picture picture;
-    otx_status status;
-
-    aside.arena = otx_arena_create(run->heap);
-    if (!aside.arena)
-        return otx_fail_memory(run, STAGE);
-    status = otx_picture_read(&aside, path, &picture);
-    if (status == OSDTEX_OK)
-        status = otx_demand_picture(
-            run, &handle->surface->surface, &picture.image, path,
-            handle->source_count, demand);
-    otx_arena_destroy(aside.arena);
-    return status;
-}
-
 /* Everything that says where, each over what came before. */
 static otx_status
 collect(
@@ -169,7 +147,8 @@ collect(
         OTX_TRY(otx_demand_constraints(
             run, surface, constraints, handle->source_count, demand));
     if (options->mask)
-        OTX_TRY(use_mask(run, handle, options->mask, demand));
+        OTX_TRY(otx_mask_pictures_take(
+            run, surface, options->mask, handle->source_count, demand));
     if (options->face_exemplars)
         OTX_TRY(otx_demand_faces(
             run, surface, options->face_exemplars, handle->source_count,

@@ -46,7 +46,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"mask", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "a picture on the cage's own UVs that says where exemplars go: black "
          "for EXEMPLAR; red, green and blue for the first, second and third "
-         "--also; what weighs most on a face wins"},
+         "--also; what weighs most on a face wins. With <UDIM> or <UVTILE> in "
+         "its name, as 'mask.<UDIM>.exr', a picture for each tile"},
     [OTX_FLAG_FIRST_PATCH] =
         {"first-patch", 0, OTX_FLAG_GROUP_MAIN, "FACE,U,V,ANGLE",
          "begin at this face of the cage (0-based), its middle at U,V of the "

@@ -2,6 +2,8 @@
 #include "cli/up_to_date.h"
 #include "cli/also_flags.h"
 
+#include <dirent.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,6 +64,65 @@ put_file(FILE *out, const char *path)
     return true;
 }
 
+/* Whether a name may be that of a mask's tile: anything stands for the token,
+ * since which tiles are needed is not known here. */
+static bool
+may_be_tile(const char *name, const char *pattern)
+{
+    const size_t head = strcspn(pattern, "<");
+    const char *tail = strrchr(pattern, '>');
+    const size_t end = tail ? strlen(tail + 1) : 0;
+    const size_t size = strlen(name);
+
+    return tail && size >= head + end && strncmp(name, pattern, head) == 0 &&
+           strcmp(name + size - end, tail + 1) == 0;
+}
+
+/* The files of a folder that may be tiles of a mask, in order of their names.
+ */
+static bool
+put_tiles(FILE *out, const char *folder, const char *pattern)
+{
+    struct dirent **entries;
+    const int count = scandir(folder, &entries, NULL, alphasort);
+    bool fine = count >= 0;
+
+    for (int i = 0; i < count; ++i)
+    {
+        char path[PATH_MAX];
+
+        if (may_be_tile(entries[i]->d_name, pattern) &&
+            (size_t)snprintf(
+                path, sizeof path, "%s/%s", folder, entries[i]->d_name) <
+                sizeof path)
+        {
+            fprintf(out, "tile %s\n", entries[i]->d_name);
+            fine &= put_file(out, path);
+        }
+        free(entries[i]);
+    }
+    if (count >= 0)
+        free(entries);
+    return fine;
+}
+
+/* A mask that is one file or, with a token in its name, many. */
+static bool
+put_mask(FILE *out, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    char folder[PATH_MAX] = ".";
+
+    if (!strchr(name, '<'))
+        return put_file(out, path);
+    if (slash && (size_t)(slash - path) >= sizeof folder)
+        return false;
+    if (slash)
+        snprintf(folder, sizeof folder, "%.*s", (int)(name - path), path);
+    return put_tiles(out, folder, name);
+}
+
 /* The job in words. */
 static bool
 put_job(FILE *out, const otx_flag_values *values)
@@ -79,7 +140,7 @@ put_job(FILE *out, const otx_flag_values *values)
         !put_file(out, values->text[OTX_FLAG_CONSTRAINTS]))
         return false;
     if (values->text[OTX_FLAG_MASK] &&
-        !put_file(out, values->text[OTX_FLAG_MASK]))
+        !put_mask(out, values->text[OTX_FLAG_MASK]))
         return false;
     for (int i = 0; i < values->also_count; ++i)
     {

@@ -1,6 +1,7 @@
 /* demand.c -- which of several exemplars each leaf face is asked to show. */
 #include "method/demand.h"
 
+#include "image/udim.h"
 #include "method/density.h"
 
 #include <stdio.h>
@@ -10,6 +11,10 @@ static const char STAGE[] = "mask";
 
 /* How far beyond the picture UVs may lie: rounding. */
 static const double UV_SLACK = 1e-4;
+
+/* A face without area at the border of a tile is in that before; less than half
+ * a leaf face of any use. */
+static const double BORDER_SLACK = 1e-6;
 
 /* "'a', 'b', 'c'" of the cage's materials; "..." for what has no room. */
 static void
@@ -104,95 +109,220 @@ add_weights(const otx_image *mask, otx_vec2 uv, double weights[4])
     weights[0] += fmax(0.0, 1.0 - sum);
 }
 
+/* NaN where a corner has none. */
 static otx_vec2
 corner_uv(const otx_surface *surface, int32_t corner)
 {
-    const float *uv = surface->uvs + 2 * (size_t)surface->face_uvs[corner];
+    const int32_t index = surface->face_uvs[corner];
+    const float *uv;
 
+    if (index < 0)
+        return (otx_vec2){NAN, NAN};
+    uv = surface->uvs + 2 * (size_t)index;
     return (otx_vec2){uv[0], uv[1]};
 }
 
-static bool
-is_in_picture(otx_vec2 uv)
-{
-    /* Written so that NaN is not. */
-    return uv.x >= -UV_SLACK && uv.x <= 1.0 + UV_SLACK && uv.y >= -UV_SLACK &&
-           uv.y <= 1.0 + UV_SLACK;
-}
-
-/* The exemplar that a leaf face asks for; -1 when a UV is not in the picture.
- */
-static int32_t
-weigh_face(const otx_surface *surface, const otx_image *mask, int32_t face)
+static otx_vec2
+middle_uv(const otx_surface *surface, int32_t face)
 {
     const otx_level *leaf = otx_surface_leaf(surface);
-    const int32_t first = leaf->face_first[face];
-    const int32_t size = otx_level_face_size(leaf, face);
-    double weights[4] = {0.0};
+    const double share = 1.0 / otx_level_face_size(leaf, face);
     otx_vec2 middle = {0.0, 0.0};
+
+    for (int32_t c = leaf->face_first[face]; c < leaf->face_first[face + 1];
+         ++c)
+        middle =
+            otx_vec2_add(middle, otx_vec2_scale(share, corner_uv(surface, c)));
+    return middle;
+}
+
+/* A corner of a leaf face that is not within [0, columns] x [0, rows]; -1
+ * none. */
+static int32_t
+find_outside(
+    const otx_surface *surface, int32_t face, double columns, double rows)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+
+    for (int32_t c = leaf->face_first[face]; c < leaf->face_first[face + 1];
+         ++c)
+    {
+        const otx_vec2 uv = corner_uv(surface, c);
+
+        /* Written so that NaN is not. */
+        if (!(uv.x >= -UV_SLACK && uv.x <= columns + UV_SLACK &&
+              uv.y >= -UV_SLACK && uv.y <= rows + UV_SLACK))
+            return c;
+    }
+    return -1;
+}
+
+/* The exemplar that a leaf face asks for. */
+static int32_t
+weigh_face(
+    const otx_surface *surface, const otx_image *image, otx_vec2 origin,
+    int32_t face)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+    const otx_vec2 middle = otx_vec2_sub(middle_uv(surface, face), origin);
+    double weights[4] = {0.0};
     int32_t best = 0;
 
-    for (int32_t c = first; c < first + size; ++c)
-    {
-        if (surface->face_uvs[c] < 0 || !is_in_picture(corner_uv(surface, c)))
-            return -1;
-        middle = otx_vec2_add(
-            middle, otx_vec2_scale(1.0 / size, corner_uv(surface, c)));
-    }
-    add_weights(mask, middle, weights);
+    add_weights(image, middle, weights);
     /* Half way, since faces that share a corner share what it shows. */
-    for (int32_t c = first; c < first + size; ++c)
+    for (int32_t c = leaf->face_first[face]; c < leaf->face_first[face + 1];
+         ++c)
         add_weights(
-            mask, otx_vec2_lerp(corner_uv(surface, c), middle, 0.5), weights);
+            image,
+            otx_vec2_lerp(
+                otx_vec2_sub(corner_uv(surface, c), origin), middle, 0.5),
+            weights);
     for (int32_t k = 1; k < 4; ++k)
         if (weights[k] > weights[best])
             best = k;
     return best;
 }
 
+static otx_where
+where_of(const otx_surface *surface, int32_t face)
+{
+    const otx_cage *cage = surface->cage;
+    const int32_t parent = otx_surface_leaf(surface)->face_cage[face];
+
+    return (otx_where){
+        cage->path, cage->face_line ? cage->face_line[parent] : 0, parent, -1};
+}
+
+/* A corner that lies where no picture is. */
 static otx_status
-refuse_face(
+refuse_uv(
+    otx_run *run, const otx_surface *surface, int32_t face, int32_t corner,
+    bool has_tiles)
+{
+    const otx_where where = where_of(surface, face);
+    const otx_vec2 uv = corner_uv(surface, corner);
+
+    if (!isfinite(uv.x) || !isfinite(uv.y))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, where,
+            "face %d has no UVs, so the mask says nothing of it; give all "
+            "faces UVs, or say where exemplars go by materials",
+            (int)where.face);
+    if (has_tiles)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, where,
+            "face %d has UVs near (%g, %g), outside of the UDIM tiles 1001 to "
+            "9999; move them to u from 0 to 10 and v from 0",
+            (int)where.face, uv.x, uv.y);
+    return otx_fail(
+        run, OSDTEX_ERROR_ARGUMENT, STAGE, where,
+        "face %d has UVs near (%g, %g), outside of 0 to 1, where the mask has "
+        "no picture; give one for each UDIM tile, named as mask.<UDIM>.exr, or "
+        "move the UVs to the unit square",
+        (int)where.face, uv.x, uv.y);
+}
+
+static otx_status
+refuse_color(
     otx_run *run, const otx_surface *surface, int32_t face, int32_t asked,
-    const char *path, int32_t count)
+    const otx_demand_mask *mask, int32_t count)
 {
     static const char *const colours[] = {"black", "red", "green", "blue"};
     const int32_t parent = otx_surface_leaf(surface)->face_cage[face];
 
-    if (asked < 0)
-        return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, STAGE,
-            (otx_where){surface->cage->path, 0, parent, -1},
-            "face %d has no UVs or such outside of 0 to 1, where the mask has "
-            "no picture; give all faces UVs in the unit square, or say it by "
-            "materials",
-            (int)parent);
     return otx_fail(
-        run, OSDTEX_ERROR_ARGUMENT, STAGE, (otx_where){path, 0, parent, -1},
+        run, OSDTEX_ERROR_ARGUMENT, STAGE,
+        (otx_where){mask->path, 0, parent, -1},
         "the mask is %s on face %d and asks for exemplar %d, but there are %d",
         colours[asked], (int)parent, (int)asked + 1, (int)count);
 }
 
+static otx_status
+need_uvs(otx_run *run, const otx_surface *surface, const char *path)
+{
+    if (surface->uv_count > 0)
+        return OSDTEX_OK;
+    return otx_fail(
+        run, OSDTEX_ERROR_ARGUMENT, STAGE,
+        (otx_where){surface->cage->path, 0, -1, -1},
+        "the cage has no UVs, so the mask '%.200s' lies nowhere; give it UVs, "
+        "or say where exemplars go by materials",
+        path);
+}
+
+/* Of [0, columns] along one axis: what ends at the border of a tile is in the
+ * one before. */
+static int32_t
+place_along(double x, int32_t columns)
+{
+    const double place = ceil(x - BORDER_SLACK) - 1.0;
+
+    return (int32_t)fmin(fmax(place, 0.0), columns - 1.0);
+}
+
 otx_status
-otx_demand_picture(
-    otx_run *run, const otx_surface *surface, const otx_image *mask,
-    const char *path, int32_t count, uint8_t *demand)
+otx_demand_tiles(
+    otx_run *run, const otx_surface *surface, const char *path, uint16_t *tiles)
 {
     const otx_level *leaf = otx_surface_leaf(surface);
 
-    if (surface->uv_count == 0)
-        return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, STAGE,
-            (otx_where){surface->cage->path, 0, -1, -1},
-            "the cage has no UVs, so the mask '%.200s' lies nowhere; give it "
-            "UVs, or say where exemplars go by materials",
-            path);
+    OTX_TRY(need_uvs(run, surface, path));
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {
-        const int32_t asked =
-            leaf->face_hole[f] ? 0 : weigh_face(surface, mask, f);
+        const int32_t outside =
+            leaf->face_hole[f]
+                ? -1
+                : find_outside(surface, f, OTX_UDIM_COLUMNS, OTX_UDIM_ROWS);
+        otx_vec2 middle;
 
-        if (asked < 0 || asked >= count)
-            return refuse_face(run, surface, f, asked, path, count);
+        tiles[f] = 0;
+        if (outside >= 0)
+            return refuse_uv(run, surface, f, outside, true);
+        if (leaf->face_hole[f])
+            continue;
+        middle = middle_uv(surface, f);
+        tiles[f] = (uint16_t)otx_udim_tile(
+            place_along(middle.x, OTX_UDIM_COLUMNS),
+            place_along(middle.y, OTX_UDIM_ROWS));
+        if (tiles[f] > OTX_UDIM_LAST)
+            return refuse_uv(run, surface, f, leaf->face_first[f], true);
+    }
+    return OSDTEX_OK;
+}
+
+/* Whether a mask's picture says anything of a face. */
+static bool
+is_about(const otx_demand_mask *mask, const otx_level *leaf, int32_t face)
+{
+    return !leaf->face_hole[face] &&
+           (!mask->tiles || mask->tiles[face] == mask->tile);
+}
+
+otx_status
+otx_demand_picture(
+    otx_run *run, const otx_surface *surface, const otx_demand_mask *mask,
+    int32_t count, uint8_t *demand)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+    otx_vec2 origin = {0.0, 0.0};
+
+    OTX_TRY(need_uvs(run, surface, mask->path));
+    if (mask->tiles)
+        origin =
+            (otx_vec2){otx_udim_column(mask->tile), otx_udim_row(mask->tile)};
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        int32_t outside = -1, asked;
+
+        if (!is_about(mask, leaf, f))
+            continue;
+        if (!mask->tiles)
+            outside = find_outside(surface, f, 1.0, 1.0);
+        if (outside >= 0)
+            return refuse_uv(run, surface, f, outside, false);
+        asked = weigh_face(surface, mask->image, origin, f);
+        if (asked >= count)
+            return refuse_color(run, surface, f, asked, mask, count);
         demand[f] = (uint8_t)asked;
     }
     return OSDTEX_OK;

@@ -25,19 +25,37 @@ otx_status otx_demand_faces(
     otx_run *run, const otx_surface *surface, const uint8_t *faces,
     int32_t count, uint8_t *demand);
 
-/* By a picture on the cage's UVs: where black (what red, green and blue leave
- * of 1) weighs most the first exemplar, where red does the second, green the
- * third, blue the fourth; of equal weights the first of these. A leaf face
- * takes the sum of its corners and its middle.
+/* A picture on the cage's UVs, of the unit square or of one UDIM tile. */
+typedef struct otx_demand_mask
+{
+    const otx_image *image; /* 3 or 4 channels, of which the first three count
+                             */
+    const char *path;       /* of the picture, for findings */
+    /* [leaf face_count] as otx_demand_tiles; NULL: all are in the picture. */
+    const uint16_t *tiles;
+    int32_t tile; /* that the picture is of: faces in others are left alone */
+} otx_demand_mask;
+
+/* The UDIM tile of each leaf face, in which its middle lies; 0 for holes.
  *
- *   mask   3 or 4 channels, of which the first three count
- *   path   of the picture, for findings
+ *   path   of the mask, for findings
+ *   tiles  [leaf face_count]
+ *
+ * ARGUMENT for a cage without UVs, and for UVs beyond all tiles. */
+otx_status otx_demand_tiles(
+    otx_run *run, const otx_surface *surface, const char *path,
+    uint16_t *tiles);
+
+/* By a picture: where black (what red, green and blue leave of 1) weighs most
+ * the first exemplar, where red does the second, green the third, blue the
+ * fourth; of equal weights the first of these. A leaf face takes the sum of its
+ * corners and its middle.
  *
  * ARGUMENT for a cage without UVs, UVs outside of the picture, and colours
  * that ask for an exemplar that is not there. */
 otx_status otx_demand_picture(
-    otx_run *run, const otx_surface *surface, const otx_image *mask,
-    const char *path, int32_t count, uint8_t *demand);
+    otx_run *run, const otx_surface *surface, const otx_demand_mask *mask,
+    int32_t count, uint8_t *demand);
 
 /* Whether a set asks for materials. */
 bool otx_demand_in(const otx_constraint_set *constraints);

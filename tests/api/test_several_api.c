@@ -142,7 +142,8 @@ patches_say_which_they_are_from(void **state)
     expect_halves(*state, NULL);
 }
 
-/* Red on the right half. The heap spoils what it takes back. */
+/* Red on the right half, as one picture and as that of a tile. The heap spoils
+ * what it takes back. */
 static void
 a_mask_says_where_they_go(void **state)
 {
@@ -151,11 +152,12 @@ a_mask_says_where_they_go(void **state)
     const osdtex_context_options options = metered(&m);
     osdtex_context *context;
     osdtex_image *image;
-    char folder[] = "/tmp/osdtex-mask-XXXXXX", path[64];
+    char folder[] = "/tmp/osdtex-mask-XXXXXX", path[64], tiles[64];
 
     (void)state;
     assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/mask.exr", folder);
+    snprintf(path, sizeof path, "%s/mask.1001.exr", folder);
+    snprintf(tiles, sizeof tiles, "%s/mask.<UDIM>.exr", folder);
     for (int i = 0; i < MASK * MASK; ++i)
         pixels[3 * i] = i % MASK >= MASK / 2 ? 1.0f : 0.0f;
     assert_int_equal(osdtex_context_create(&options, &context), OSDTEX_OK);
@@ -164,6 +166,7 @@ a_mask_says_where_they_go(void **state)
     assert_int_equal(osdtex_image_write(context, image, path), OSDTEX_OK);
     osdtex_image_destroy(image);
     expect_halves(context, path);
+    expect_halves(context, tiles);
     osdtex_context_destroy(context);
     remove(path);
     remove(folder);

@@ -78,6 +78,14 @@ class MaskTest(ProgramTest):
             self.run_map(cage, FIRST, *QUICK, *more), code, words)
         self.assertEqual(self.names(), before)
 
+    def tiles(self, columns):
+        """A plane whose UVs go over so many UDIM tiles."""
+        path = self.folder / "tiles.obj"
+        path.write_text(re.sub(
+            r"^vt (\S+)", lambda m: f"vt {columns * float(m[1])}",
+            PLANE.read_text(), flags=re.M))
+        return path
+
     def mask(self, *colours):
         """A mask of equal stripes, left to right."""
         return write_png(
@@ -124,6 +132,30 @@ class Several(MaskTest):
         self.assertEqual(
             set(Model(self.folder / "out.obj").textures),
             {"out_1.exr", "out_2.exr"})
+
+    def test_a_mask_may_be_a_picture_a_tile(self):
+        cage = self.tiles(2)
+        for names in ("<UDIM>", "1001", "1002"), ("<UVTILE>", "u1_v1", "u2_v1"):
+            for name, red in zip(names[1:], (0, 255)):
+                write_png(self.folder / f"mask.{name}.png", 4, 4,
+                          lambda x, y: (red, 0, 0))
+            more = ("--also", GRASS, "--set", "transition=0", "-u", "--mask",
+                    self.folder / f"mask.{names[0]}.png")
+            self.map(*more, cage=cage)
+            model = Model(self.folder / "out.obj")
+            low = min(p[0] for p in model.points)
+            half = low + (max(p[0] for p in model.points) - low) / 2
+            for face, texture in zip(model.faces, model.textures):
+                x = sum(model.points[v][0] for v in face) / len(face)
+                self.assertEqual(texture, f"out_{1 + (x > half)}.exr")
+        first = (self.folder / "out.obj").stat().st_mtime_ns
+        self.map(*more, cage=cage)
+        self.assertEqual((self.folder / "out.obj").stat().st_mtime_ns, first)
+        write_png(self.folder / "mask.u1_v1.png", 4, 4,
+                  lambda x, y: (255, 0, 0))
+        self.map(*more, cage=cage)
+        self.assertEqual(
+            set(Model(self.folder / "out.obj").textures), {"out_2.exr"})
 
     def test_constraints_divide_the_surface(self):
         table = self.folder / "who.csv"
@@ -236,6 +268,23 @@ class Refused(MaskTest):
         self.refused(
             3, "nowhere.png", "--also", GRASS, "--mask", "nowhere.png",
             cage=PLANE)
+
+    def test_masks_of_tiles(self):
+        cage = self.tiles(2)
+        write_png(self.folder / "mask.1001.png", 4, 4, lambda x, y: (0, 0, 0))
+        several = ("--also", GRASS, "--mask")
+        tiles = self.folder / "mask.<UDIM>.png"
+        self.refused(
+            3, "mask.1002.png: the mask has no picture of UDIM tile 1002",
+            *several, tiles, cage=cage)
+        self.refused(
+            1, "named as mask.<UDIM>.exr", *several,
+            self.folder / "mask.1001.png", cage=cage)
+        self.refused(
+            1, "outside of the UDIM tiles", *several, tiles,
+            cage=self.tiles(-1))
+        self.refused(
+            1, "has no UVs", *several, tiles, cage=CAGES / "sphere.obj")
 
     def test_an_output_does_not_replace_an_input(self):
         other = self.folder / "out_2.exr"

@@ -120,6 +120,16 @@ middle_u(const otx_surface *surface, int32_t face)
     return sum / otx_level_face_size(leaf, face);
 }
 
+static otx_status
+ask_picture(
+    otx_run *run, const otx_surface *surface, const otx_image *image,
+    int32_t count, uint8_t *demand)
+{
+    const otx_demand_mask mask = {.image = image, .path = "mask.png"};
+
+    return otx_demand_picture(run, surface, &mask, count, demand);
+}
+
 static void
 colours_ask_for_exemplars(void **state)
 {
@@ -135,8 +145,7 @@ colours_ask_for_exemplars(void **state)
         const otx_image image = stripes(run, channels);
 
         assert_int_equal(
-            otx_demand_picture(run, &surface, &image, "mask.png", 4, demand),
-            OSDTEX_OK);
+            ask_picture(run, &surface, &image, 4, demand), OSDTEX_OK);
         for (int32_t f = 0; f < leaf->face_count; ++f)
         {
             const double u = 4.0 * middle_u(&surface, f);
@@ -162,30 +171,95 @@ what_a_picture_cannot_ask_for_is_refused(void **state)
 
     (void)state;
     expect_refused(
-        run,
-        otx_demand_picture(
-            run, &plane, &image, "mask.png", 2, no_demand(run, &plane)),
+        run, ask_picture(run, &plane, &image, 2, no_demand(run, &plane)),
         "there are 2");
     memcpy(uvs, plane.uvs, 2 * (size_t)plane.uv_count * sizeof *uvs);
     beyond.uvs = uvs;
     uvs[2 * plane.face_uvs[0]] = 1.5f;
     expect_refused(
-        run,
-        otx_demand_picture(
-            run, &beyond, &image, "mask.png", 4, no_demand(run, &plane)),
+        run, ask_picture(run, &beyond, &image, 4, no_demand(run, &plane)),
         "outside of 0 to 1");
     uvs[2 * plane.face_uvs[0]] = NAN;
     expect_refused(
-        run,
-        otx_demand_picture(
-            run, &beyond, &image, "mask.png", 4, no_demand(run, &plane)),
-        "outside of 0 to 1");
+        run, ask_picture(run, &beyond, &image, 4, no_demand(run, &plane)),
+        "has no UVs");
     if (sphere.uv_count == 0)
         expect_refused(
-            run,
-            otx_demand_picture(
-                run, &sphere, &image, "mask.png", 4, no_demand(run, &sphere)),
+            run, ask_picture(run, &sphere, &image, 4, no_demand(run, &sphere)),
             "has no UVs");
+    test_run_destroy(run);
+}
+
+/* The plane's UVs, of which u goes over `columns` tiles from `first`. */
+static otx_surface
+spread_uvs(otx_run *run, const otx_surface *plane, float first, float columns)
+{
+    otx_surface surface = *plane;
+    float *uvs = OTX_NEW(run->arena, float, 2 * (size_t)plane->uv_count);
+
+    for (int32_t i = 0; i < plane->uv_count; ++i)
+    {
+        uvs[2 * i] = first + columns * plane->uvs[2 * i];
+        uvs[2 * i + 1] = 3.0f + plane->uvs[2 * i + 1];
+    }
+    surface.uvs = uvs;
+    return surface;
+}
+
+/* Each picture is asked only about the faces of its tile, in which it lies as
+ * one does in the unit square. */
+static void
+tiles_ask_for_what_lies_in_them(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_surface plane = read_cage(run, "plane", 3);
+    const otx_surface surface = spread_uvs(run, &plane, 1.0f, 2.0f);
+    const int32_t face_count = otx_surface_leaf(&surface)->face_count;
+    const otx_image image = stripes(run, 3);
+    uint16_t *tiles = OTX_NEW(run->arena, uint16_t, face_count);
+    uint8_t *demand = no_demand(run, &surface);
+    otx_demand_mask mask = {&image, "mask.1032.png", tiles, 1032};
+
+    (void)state;
+    assert_int_equal(
+        otx_demand_tiles(run, &surface, "mask.<UDIM>.png", tiles), OSDTEX_OK);
+    memset(demand, 9, (size_t)face_count);
+    assert_int_equal(
+        otx_demand_picture(run, &surface, &mask, 4, demand), OSDTEX_OK);
+    for (int32_t f = 0; f < face_count; ++f)
+    {
+        const double u = middle_u(&surface, f);
+
+        assert_int_equal(tiles[f], u < 2.0 ? 1032 : 1033);
+        if (u > 2.0)
+            assert_int_equal(demand[f], 9);
+        else if (fabs(4.0 * u - round(4.0 * u)) > 0.2)
+            assert_int_equal(demand[f], (int)floor(4.0 * (u - 1.0)));
+    }
+    test_run_destroy(run);
+}
+
+static void
+what_lies_beyond_the_tiles_is_refused(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_surface plane = read_cage(run, "plane", 1);
+    const otx_surface left = spread_uvs(run, &plane, -0.5f, 1.0f);
+    const otx_surface right = spread_uvs(run, &plane, 9.0f, 1.5f);
+    const otx_surface last = spread_uvs(run, &plane, 9.0f, 1.0f);
+    uint16_t *tiles =
+        OTX_NEW(run->arena, uint16_t, otx_surface_leaf(&plane)->face_count);
+
+    (void)state;
+    expect_refused(
+        run, otx_demand_tiles(run, &left, "m.<UDIM>.png", tiles),
+        "outside of the UDIM tiles");
+    expect_refused(
+        run, otx_demand_tiles(run, &right, "m.<UDIM>.png", tiles),
+        "outside of the UDIM tiles");
+    assert_int_equal(
+        otx_demand_tiles(run, &last, "m.<UDIM>.png", tiles), OSDTEX_OK);
+    assert_int_equal(tiles[0], 1040);
     test_run_destroy(run);
 }
 
@@ -230,6 +304,8 @@ main(void)
         cmocka_unit_test(a_table_is_read_by_face),
         cmocka_unit_test(colours_ask_for_exemplars),
         cmocka_unit_test(what_a_picture_cannot_ask_for_is_refused),
+        cmocka_unit_test(tiles_ask_for_what_lies_in_them),
+        cmocka_unit_test(what_lies_beyond_the_tiles_is_refused),
         cmocka_unit_test(materials_of_constraints_divide_the_surface),
     };
 

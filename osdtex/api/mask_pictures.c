@@ -1,0 +1,104 @@
+/* mask_pictures.c -- reading masks, tile by tile. */
+#include "api/mask_pictures.h"
+
+#include "file/picture.h"
+#include "file/udim_name.h"
+#include "image/udim.h"
+#include "method/demand.h"
+
+#include <unistd.h>
+
+static const char STAGE[] = "mask";
+
+/* The picture lives in an arena of its own: it is large, and what readers
+ * make must not lie over what the scratch arena holds. */
+static otx_status
+take_picture(
+    otx_run *run, const otx_surface *surface, otx_demand_mask mask,
+    int32_t count, uint8_t *demand)
+{
+    otx_run aside = *run;
+    otx_picture picture;
+    otx_status status;
+
+    aside.arena = otx_arena_create(run->heap);
+    if (!aside.arena)
+        return otx_fail_memory(run, STAGE);
+    status = otx_picture_read(&aside, mask.path, &picture);
+    mask.image = &picture.image;
+    if (status == OSDTEX_OK)
+        status = otx_demand_picture(run, surface, &mask, count, demand);
+    otx_arena_destroy(aside.arena);
+    return status;
+}
+
+/* A face that lies in a tile, -1 none. */
+static int32_t
+find_face(const uint16_t *tiles, int32_t face_count, int32_t tile)
+{
+    for (int32_t f = 0; f < face_count; ++f)
+        if (tiles[f] == tile)
+            return f;
+    return -1;
+}
+
+static otx_status
+take_tile(
+    otx_run *run, const otx_surface *surface, otx_demand_mask mask,
+    int32_t face, int32_t count, uint8_t *demand)
+{
+    const int32_t parent = otx_surface_leaf(surface)->face_cage[face];
+
+    if (!mask.path)
+        return otx_fail_memory(run, STAGE);
+    if (access(mask.path, F_OK) != 0)
+        return otx_fail(
+            run, OSDTEX_ERROR_IO, STAGE, (otx_where){mask.path, 0, parent, -1},
+            "the mask has no picture of UDIM tile %d, where face %d lies; "
+            "write one, black where the first exemplar is to be",
+            (int)mask.tile, (int)parent);
+    return take_picture(run, surface, mask, count, demand);
+}
+
+static otx_status
+take_tiles(
+    otx_run *run, const otx_surface *surface, const char *pattern,
+    int32_t count, uint8_t *demand)
+{
+    const int32_t face_count = otx_surface_leaf(surface)->face_count;
+    uint16_t *tiles = OTX_NEW(run->scratch, uint16_t, face_count);
+    uint8_t *found =
+        OTX_ZNEW(run->scratch, uint8_t, OTX_UDIM_LAST - OTX_UDIM_FIRST + 1);
+
+    if (!tiles || !found)
+        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_demand_tiles(run, surface, pattern, tiles));
+    for (int32_t f = 0; f < face_count; ++f)
+        if (tiles[f] != 0)
+            found[tiles[f] - OTX_UDIM_FIRST] = 1;
+    for (int32_t t = OTX_UDIM_FIRST; t <= OTX_UDIM_LAST; ++t)
+        if (found[t - OTX_UDIM_FIRST])
+            OTX_TRY(take_tile(
+                run, surface,
+                (otx_demand_mask){
+                    .path = otx_udim_name_of(run->scratch, pattern, t),
+                    .tiles = tiles,
+                    .tile = t},
+                find_face(tiles, face_count, t), count, demand));
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_mask_pictures_take(
+    otx_run *run, const otx_surface *surface, const char *path, int32_t count,
+    uint8_t *demand)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+
+    if (!otx_udim_name_is_pattern(path))
+        return take_picture(
+            run, surface, (otx_demand_mask){.path = path}, count, demand);
+    OTX_TRY(take_tiles(run, surface, path, count, demand));
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}

@@ -1,0 +1,20 @@
+/* mask_pictures.h -- a mask that is one picture, or one for each UDIM tile. */
+#ifndef OTX_API_MASK_PICTURES_H
+#define OTX_API_MASK_PICTURES_H
+
+#include "surface/surface.h"
+
+/* Writes what a mask asks for into `demand`, as otx_demand_picture. One picture
+ * at a time is in memory.
+ *
+ *   path   of the picture; with a token of file/udim_name.h, of those of the
+ *          tiles that the cage's UVs lie in
+ *   count  of exemplars
+ *
+ * ARGUMENT, IO (with the tile that has no picture), FORMAT, LIMIT, NUMERIC,
+ * SUPPORT, MEMORY. */
+otx_status otx_mask_pictures_take(
+    otx_run *run, const otx_surface *surface, const char *path, int32_t count,
+    uint8_t *demand);
+
+#endif
