@@ -62,12 +62,11 @@ make_block(job *j, int32_t i, otx_worker *worker)
         .pixels = pixels};
 
     j->overlaps[i] = 0;
-    if (!pixels || !otx_texel_block(
+    if (!pixels || !otx_texel_bake(
                        &j->bake->source, j->page, block.x, block.y,
                        worker->scratch, pixels, &j->overlaps[i]))
         return OSDTEX_ERROR_MEMORY;
-    block.stride =
-        (ptrdiff_t)otx_texel_block_width(j->page, block.x) * channels;
+    block.stride = (ptrdiff_t)otx_page_block_size(j->page, block.x) * channels;
     j->sink->take(j->sink->user, j->next.slot + i, worker->index, &block);
     return OSDTEX_OK;
 }

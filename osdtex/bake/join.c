@@ -134,11 +134,11 @@ set_edge(const otx_join *join, int32_t rim, otx_join_edge *out)
     const otx_level *leaf = otx_surface_leaf(page->layout->surface);
     const otx_page_rim *r = &page->rims[rim];
     const int32_t edge = leaf->face_edges[leaf->face_first[r->face] + r->edge];
-    const int32_t other = otx_level_neighbour(leaf, r->face, r->edge);
+    const int32_t other = otx_layout_across(page->layout, r->face, r->edge);
     int32_t here[3], there[3];
 
     out->rim = rim;
-    out->goes_on = other >= 0 && page->layout->covered[other] &&
+    out->goes_on = other >= 0 &&
                    otx_source_of(join->mapping, other) ==
                        otx_source_of(join->mapping, r->face) &&
                    !otx_mixture_has(join->mapping, r->face) &&

@@ -146,9 +146,9 @@ twin_of(const otx_layout *layout, int32_t face, int32_t k)
 {
     const otx_level *leaf = otx_surface_leaf(layout->surface);
     const int32_t edge = leaf->face_edges[leaf->face_first[face] + k];
-    const int32_t other = otx_level_neighbour(leaf, face, k);
+    const int32_t other = otx_layout_across(layout, face, k);
 
-    if (other < 0 || !layout->covered[other])
+    if (other < 0)
         return -1;
     for (int32_t c = leaf->face_first[other]; c < leaf->face_first[other + 1];
          ++c)

@@ -2,8 +2,8 @@
  *
  * Either the cage's own UVs, carried to the leaves by the face-varying rule
  * that the surface was refined with, or an atlas made here, which goes with
- * the rule "linear all". Tiles are UDIM's
- * (image/udim.h). */
+ * the rule "linear all". Tiles are UDIM's (image/udim.h).
+ */
 #ifndef OTX_BAKE_LAYOUT_H
 #define OTX_BAKE_LAYOUT_H
 
@@ -59,5 +59,15 @@ typedef struct otx_layout
 otx_status otx_layout_build(
     otx_run *run, const otx_mapping *mapping, const otx_layout_options *options,
     otx_layout *out);
+
+/* The face across edge k of a face, where it has a texture, too; -1 none. */
+static inline int32_t
+otx_layout_across(const otx_layout *layout, int32_t face, int32_t k)
+{
+    const int32_t other =
+        otx_level_neighbour(otx_surface_leaf(layout->surface), face, k);
+
+    return other >= 0 && layout->covered[other] ? other : -1;
+}
 
 #endif

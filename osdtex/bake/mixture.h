@@ -1,8 +1,9 @@
 /* mixture.h -- colours of faces that take the mean of several lookups. */
-#ifndef OTX_BAKE_SEVERAL_H
-#define OTX_BAKE_SEVERAL_H
+#ifndef OTX_BAKE_MIXTURE_H
+#define OTX_BAKE_MIXTURE_H
 
-#include "bake/texel.h"
+#include "bake/texel_source.h"
+#include "bake/walk.h"
 
 static inline bool
 otx_mixture_has(const otx_mapping *mapping, int32_t face)

@@ -46,18 +46,26 @@ typedef struct choice
     const int32_t *face_patch; /* NULL: the rims */
 } choice;
 
+bool
+otx_page_is_seam(
+    const otx_layout *layout, const int32_t *face_patch,
+    const otx_page_rim *edge)
+{
+    const int32_t other = otx_layout_across(layout, edge->face, edge->edge);
+
+    return other >= 0 && face_patch[other] != face_patch[edge->face];
+}
+
 static bool
 is_listed(const choice *c, int32_t face, int32_t k)
 {
     const otx_level *leaf = otx_surface_leaf(c->layout->surface);
-    const int32_t other = otx_level_neighbour(leaf, face, k);
 
     if (!has_area(c->layout, face, k))
         return false;
     if (!c->face_patch)
         return c->layout->rim[leaf->face_first[face] + k];
-    return other >= 0 && c->layout->covered[other] &&
-           c->face_patch[other] != c->face_patch[face];
+    return otx_page_is_seam(c->layout, c->face_patch, &(otx_page_rim){face, k});
 }
 
 /* Lists the edges of a tile: [*count] in `arena`. */

@@ -59,6 +59,20 @@ otx_status otx_page_find_seams(
  * MEMORY. */
 otx_status otx_page_build(otx_run *run, otx_arena *arena, otx_page *page);
 
+/* Whether the patch across an edge is another. */
+bool otx_page_is_seam(
+    const otx_layout *layout, const int32_t *face_patch,
+    const otx_page_rim *edge);
+
+/* Size of a block, which is smaller at the right and lower rim. */
+static inline int32_t
+otx_page_block_size(const otx_page *page, int32_t x)
+{
+    const int32_t left = page->side - x * OTX_PAGE_BLOCK;
+
+    return left < OTX_PAGE_BLOCK ? left : OTX_PAGE_BLOCK;
+}
+
 /* A corner of a leaf face, in texels of the page. */
 static inline otx_vec2
 otx_page_texel(const otx_page *page, int32_t corner)

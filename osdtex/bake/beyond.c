@@ -1,0 +1,122 @@
+/* beyond.c -- texels beyond the rims of all charts. */
+#include "bake/beyond.h"
+
+#include "bake/crossfade.h"
+#include "bake/number.h"
+#include "bake/sample.h"
+
+#include <string.h>
+
+enum
+{
+    NOT_LOOKED_FOR = -2
+};
+
+otx_beyond
+otx_beyond_begin(void)
+{
+    otx_beyond out;
+
+    for (size_t i = 0; i < sizeof out.rims / sizeof *out.rims; ++i)
+        out.rims[i] = NOT_LOOKED_FOR;
+    return out;
+}
+
+/* The point of a rim nearest to a texel position, in texels. */
+static otx_vec2
+nearest_on(const otx_page *page, int32_t rim, otx_vec2 texel)
+{
+    otx_vec2 ends[2];
+
+    otx_page_ends(page, &page->rims[rim], ends);
+    return otx_vec2_lerp(
+        ends[0], ends[1], otx_raster_nearest(ends[0], ends[1], texel));
+}
+
+/* The nearest of the rims around the block; -1 when the page has none. */
+static int32_t
+nearest_rim(const otx_block *block, otx_vec2 texel)
+{
+    double best_sq = INFINITY;
+    int32_t best = block->far_rim;
+
+    for (int64_t i = 0; i < block->rim_count; ++i)
+    {
+        const otx_vec2 d =
+            otx_vec2_sub(texel, nearest_on(block->page, block->rims[i], texel));
+        const double sq = otx_vec2_dot(d, d);
+
+        if (sq < best_sq)
+        {
+            best_sq = sq;
+            best = block->rims[i];
+        }
+    }
+    return best;
+}
+
+/* That of a texel's cell. */
+static int32_t
+rim_of_cell(const otx_block *block, int32_t x, int32_t y, otx_beyond *found)
+{
+    enum
+    {
+        CELL = OTX_BEYOND_CELL
+    };
+    int32_t *rim = &found->rims[y / CELL * OTX_BEYOND_CELLS + x / CELL];
+
+    if (*rim == NOT_LOOKED_FOR)
+        *rim = nearest_rim(
+            block, otx_raster_texel(
+                       &block->raster, x / CELL * CELL + CELL / 2,
+                       y / CELL * CELL + CELL / 2));
+    return *rim;
+}
+
+/* What a texel shows; false when there is nothing. */
+static bool
+find_place(
+    otx_block *block, int32_t x, int32_t y, otx_beyond *found, otx_walk *out)
+{
+    const otx_vec2 at = otx_raster_texel(&block->raster, x, y);
+    const otx_page_rim *rims = block->page->rims;
+    const int32_t near = block->near_rim.edges[otx_block_index(block, x, y)];
+
+    if (near >= 0)
+    {
+        *out =
+            otx_block_walk(block, otx_block_rim_piece(block, &rims[near]), at);
+        return true;
+    }
+
+    const int32_t far = rim_of_cell(block, x, y, found);
+
+    if (far < 0)
+        return false;
+    *out = otx_piece_place(
+        otx_block_rim_piece(block, &rims[far]),
+        nearest_on(block->page, far, at));
+    return true;
+}
+
+void
+otx_beyond_texel(
+    otx_block *block, int32_t x, int32_t y, otx_beyond *found, float *out)
+{
+    const otx_texel_source *source = block->source;
+    otx_walk walk;
+
+    if (!find_place(block, x, y, found, &walk))
+    {
+        memset(out, 0, (size_t)source->channels * sizeof *out);
+        return;
+    }
+    if (source->kind != OTX_TEXEL_COLOR)
+    {
+        otx_number_beyond(block, x, y, &walk, out);
+        return;
+    }
+    otx_sample_at(source, &walk, 1.0, out);
+    if (block->near_rim.edges[otx_block_index(block, x, y)] >= 0)
+        otx_crossfade_beyond(block, x, y, out);
+}

@@ -1,0 +1,91 @@
+/* block.h -- a block of texels at work: what lies under its samples. */
+#ifndef OTX_BAKE_BLOCK_H
+#define OTX_BAKE_BLOCK_H
+
+#include "bake/piece.h"
+#include "bake/raster.h"
+
+enum
+{
+    OTX_BLOCK_PIECES = 1024,  /* kept between samples; a power of two */
+    OTX_BLOCK_SAMPLES_MAX = 4 /* to a texel's side */
+};
+
+/* The texels of a page's block, with an apron of texels around them where they
+ * are fitted to lookups. */
+typedef struct otx_block
+{
+    const otx_texel_source *source;
+    const otx_page *page;
+    int32_t width, height; /* without the apron */
+    int32_t left, below;   /* of the apron; 0 at the picture's border */
+    otx_raster raster;     /* with it */
+    otx_raster_near near_rim, near_seam;
+    otx_piece *pieces;   /* [OTX_BLOCK_PIECES], by hash of their id */
+    const int32_t *rims; /* [rim_count] near the block */
+    int64_t rim_count;
+    int32_t far_rim;
+} otx_block;
+
+/* Places block (x, y), of which rows count from the top, and draws the faces,
+ * rims and seams in it. False when memory is out.
+ *
+ *   overlaps  added to: samples that several faces claim */
+bool otx_block_draw(
+    const otx_texel_source *source, const otx_page *page, int32_t x, int32_t y,
+    otx_arena *scratch, otx_block *out, int64_t *overlaps);
+
+/* Where a walk from a piece to a texel position ends. */
+otx_walk
+otx_block_walk(const otx_block *block, const otx_piece *piece, otx_vec2 texel);
+
+/* Whether lookups come close to texels: they do to those of level 0. */
+static inline bool
+otx_block_is_fitted(const otx_block *block)
+{
+    return block->page->level == 0 && block->source->kind == OTX_TEXEL_COLOR;
+}
+
+/* Index of a texel of the raster. */
+static inline size_t
+otx_block_index(const otx_block *block, int32_t x, int32_t y)
+{
+    return (size_t)y * (size_t)block->raster.width + (size_t)x;
+}
+
+/* Id of the piece at sample s of a texel; -1 none. */
+static inline int64_t
+otx_block_sample(const otx_block *block, int32_t x, int32_t y, int32_t s)
+{
+    const int32_t n = block->raster.n, i = x * n + s % n, j = y * n + s / n;
+
+    return block->raster
+        .facets[(size_t)j * (size_t)(block->raster.width * n) + (size_t)i];
+}
+
+/* A piece, made when it is first met; holds until the next call. */
+static inline const otx_piece *
+otx_block_piece(otx_block *block, int64_t id)
+{
+    otx_piece *piece =
+        &block->pieces[((id >> 16) * 2 + (id & 1)) & (OTX_BLOCK_PIECES - 1)];
+
+    if (piece->id != id)
+        *piece = otx_piece_make(
+            block->source, block->page, 1.0 / block->raster.n, id);
+    return piece;
+}
+
+/* The piece that a rim or a seam is a side of. */
+static inline const otx_piece *
+otx_block_rim_piece(otx_block *block, const otx_page_rim *rim)
+{
+    const otx_level *leaf = otx_surface_leaf(block->source->layout->surface);
+    int32_t side;
+    const otx_facet facet =
+        otx_facet_at_edge(leaf, rim->face, rim->edge, &side);
+
+    return otx_block_piece(block, otx_piece_id(facet.face, facet.index));
+}
+
+#endif

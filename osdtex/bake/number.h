@@ -1,0 +1,25 @@
+/* number.h -- what is baked besides colours: values at a texel's centre. */
+#ifndef OTX_BAKE_NUMBER_H
+#define OTX_BAKE_NUMBER_H
+
+#include "bake/block.h"
+
+/* The two values at a place, of the kind that is baked; 0 of seams, which are
+ * found texel by texel. */
+void otx_number_at(
+    const otx_texel_source *source, const otx_walk *walk, float *values);
+
+/* All three of a texel on the surface: with whether it is there.
+ *
+ *   first  a sample on the texel's chart */
+void otx_number_inside(
+    otx_block *block, int32_t x, int32_t y, int32_t first, float *out);
+
+/* The same of a texel beyond the rims, in place of its colour.
+ *
+ *   walk  what it continues */
+void otx_number_beyond(
+    const otx_block *block, int32_t x, int32_t y, const otx_walk *walk,
+    float *out);
+
+#endif
