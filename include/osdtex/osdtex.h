@@ -708,8 +708,8 @@ extern "C"
         double scale;       /* width of the exemplar in scene units; 0:
                              * osdtex_cage_info.default_scale */
         uint64_t seed;
-        /* A file of constraints on direction and scale, JSON or CSV; NULL
-         * none. */
+        /* A file of constraints on direction, scale and exemplars, JSON or
+         * CSV; NULL none. */
         const char *constraints;
         /* "isotropic", "directional", "weak-lattice" or "lattice"; NULL: the
          * exemplar is analysed. */
@@ -721,8 +721,8 @@ extern "C"
          * file of constraints says, else nothing. */
         const char *follow;
         /* Up to three exemplars more, for methods that mix them. Which a face
-         * shows is said by its material, by a mask, by a table or by materials
-         * among the constraints (docs/notes/mask.md); the first exemplar goes
+         * shows is said by its material, by a mask, by a table or by the
+         * constraints (docs/notes/mask.md); the first exemplar goes
          * wherever nothing is said. */
         const osdtex_also *also; /* [also_count] */
         int32_t also_count;

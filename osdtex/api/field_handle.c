@@ -133,6 +133,20 @@ solve(otx_run *run, double octaves, osdtex_field *h)
         h->material);
 }
 
+/* Exemplars are not interpolated here and would be lost in what is written. */
+static void
+warn_of_exemplars(otx_run *run, const otx_constraint_set *set)
+{
+    for (int32_t i = 0; i < set->count; ++i)
+        if (set->items[i].exemplar > 0 || set->items[i].exemplar_name)
+            otx_note(
+                run, OSDTEX_SEVERITY_WARNING, "field",
+                (otx_where){set->path, 0, -1, -1},
+                "constraint %d names an exemplar, which a field does not hold; "
+                "give the file to map",
+                (int)i + 1);
+}
+
 static otx_status
 create(
     otx_run *run, const osdtex_surface *surface,
@@ -157,6 +171,7 @@ create(
         otx_map_input_constraints(run, ours.constraints, ours.follow, &set));
     if (set)
         h->set = *set;
+    warn_of_exemplars(run, &h->set);
     if (ours.whole_table)
         OTX_TRY(otx_constraint_check_table(
             run, &h->set, surface->surface.cage->face_count));

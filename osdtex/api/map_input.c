@@ -64,6 +64,8 @@ read_file(otx_run *run, const char *path, otx_constraint_set *set)
             .scale = file.lines[i].scale,
             .has_material = file.lines[i].has_material,
             .material = file.lines[i].material,
+            .exemplar = file.lines[i].exemplar,
+            .exemplar_name = file.lines[i].exemplar_name,
         };
     set->path = file.path;
     set->symmetry = file.symmetry;

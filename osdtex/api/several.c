@@ -5,6 +5,7 @@
  * texture when they are baked, so all are in one linear space. */
 #include "api/several.h"
 
+#include "api/exemplar_names.h"
 #include "api/mask_pictures.h"
 #include "method/demand.h"
 
@@ -187,7 +188,7 @@ check_demand(
                 run, OSDTEX_ERROR_ARGUMENT, STAGE, where,
                 "nothing says where exemplar %d goes; name a material of the "
                 "cage (--also MATERIAL=FILE), or give a --mask or constraints "
-                "with materials",
+                "that name exemplars",
                 (int)k + 1);
         if (!is_asked_for(handle, demand, k))
             otx_note(
@@ -209,6 +210,9 @@ otx_several_take(
 
     OTX_TRY(check(run, options, handle));
     OTX_TRY(take_exemplars(run, options, handle));
+    OTX_TRY(otx_exemplar_names_resolve(
+        run, handle->exemplars, handle->source_count,
+        &handle->request.constraints));
     if (options->also_count == 0)
         return OSDTEX_OK;
     demand = OTX_ZNEW(run->arena, uint8_t, leaf->face_count);

@@ -38,8 +38,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_ALSO] =
         {"also", 0, OTX_FLAG_GROUP_MAIN, "[MATERIAL=]FILE",
          "another exemplar, up to three times: for the faces of the cage that "
-         "have this material (usemtl), or for those that --mask or the "
-         "materials of --constraints say; EXEMPLAR goes everywhere else, and "
+         "have this material (usemtl), or for those that --mask or "
+         "--constraints say; EXEMPLAR goes everywhere else, and "
          "the seams between them run within --set transition=TEXELS of where "
          "they are asked for. =FILE for a name with a ="},
     [OTX_FLAG_MASK] =
@@ -55,7 +55,7 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_CONSTRAINTS] =
         {"constraints", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "directions and sizes that the texture is to have at faces of the "
-         "cage or at points: a .json or .csv"},
+         "cage or at points, and which exemplar: a .json or .csv"},
     [OTX_FLAG_FOLLOW] =
         {"follow", 0, OTX_FLAG_GROUP_MAIN, "WHAT",
          "what directions follow where no constraint says otherwise: smooth, "

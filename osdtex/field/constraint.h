@@ -20,6 +20,10 @@ typedef struct otx_constraint
     double scale; /* factor on the texture's size; 0 says nothing */
     bool has_material;
     double material; /* 0 .. 1 */
+    /* That is to be shown, from 1; 0 says nothing. Not a field: mappings of
+     * several exemplars read it. */
+    int32_t exemplar;
+    const char *exemplar_name; /* the same by its file; NULL none */
 } otx_constraint;
 
 /* What attracts the field where no constraint says otherwise. */

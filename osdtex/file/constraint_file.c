@@ -64,6 +64,34 @@ read_face(const json_t *value, int32_t *out)
     return json_is_integer(value) && face >= 0 && face < INT32_MAX;
 }
 
+/* A number from 1, or a name. */
+static otx_status
+read_exemplar(
+    otx_run *run, const char *path, int32_t index, const json_t *value,
+    otx_constraint_line *out)
+{
+    const json_int_t number = json_integer_value(value);
+    const char *name = json_string_value(value);
+
+    if (name && *name)
+    {
+        out->exemplar_name = otx_arena_strdup(run->arena, name);
+        return out->exemplar_name ? OSDTEX_OK : otx_fail_memory(run, stage);
+    }
+    if (number < 1 || number > INT16_MAX)
+        return refuse(
+            run, path, index, "exemplar",
+            "is its number, from 1, or the name of its file");
+    out->exemplar = (int32_t)number;
+    return OSDTEX_OK;
+}
+
+static bool
+asks_for_exemplar(const otx_constraint_line *line)
+{
+    return line->exemplar > 0 || line->exemplar_name;
+}
+
 static otx_status
 read_item(
     otx_run *run, const char *path, int32_t index, json_t *item,
@@ -114,18 +142,25 @@ read_item(
                 !(out->material >= 0.0 && out->material <= 1.0))
                 return refuse(run, path, index, key, "is a number from 0 to 1");
         }
+        else if (strcmp(key, "exemplar") == 0)
+            OTX_TRY(read_exemplar(run, path, index, value, out));
         else
             return refuse(
                 run, path, index, key,
-                "is not known; there are face, point, radius, direction, scale "
-                "and material");
+                "is not known; there are face, point, radius, direction, "
+                "scale, material and exemplar");
     }
     if ((out->face >= 0) == has_point)
         return refuse(run, path, index, "face", "or \"point\" is needed, one");
-    if (!out->has_direction && out->scale == 0.0 && !out->has_material)
+    if (out->has_material && asks_for_exemplar(out))
+        return refuse(
+            run, path, index, "material",
+            "and \"exemplar\" say the same; give one");
+    if (!out->has_direction && out->scale == 0.0 && !out->has_material &&
+        !asks_for_exemplar(out))
         return refuse(
             run, path, index, "direction",
-            "or \"scale\" or \"material\" is needed");
+            "or \"scale\", \"material\" or \"exemplar\" is needed");
     return OSDTEX_OK;
 }
 
@@ -263,36 +298,60 @@ read_numbers(otx_token line, double *out, int capacity)
     }
 }
 
+/* Whether the sixth number is the exemplar's, 0 for none. */
+static bool
+names_exemplar(otx_token line)
+{
+    static const char name[] = "exemplar";
+    const char *at = line.begin;
+
+    for (int comma = 0; comma < 5 && at < line.end; ++at)
+        comma += *at == ',';
+    while (at < line.end && *at == ' ')
+        ++at;
+    return (size_t)(line.end - at) >= strlen(name) &&
+           memcmp(at, name, strlen(name)) == 0;
+}
+
+static bool
+is_exemplar(double number)
+{
+    return number >= 0.0 && number <= INT16_MAX && number == floor(number);
+}
+
 static otx_status
 read_row(
-    otx_run *run, const otx_text *text, const double *n, int count,
-    otx_constraint_line *out)
+    otx_run *run, const otx_text *text, bool by_exemplar, const double *n,
+    int count, otx_constraint_line *out)
 {
     if (count < 4 || n[0] < 0.0 || n[0] >= INT32_MAX || n[0] != floor(n[0]) ||
         !isfinite(n[1] + n[2] + n[3]) ||
         (count >= 5 && !(n[4] > 0.0 && isfinite(n[4]))) ||
-        (count == 6 && !(n[5] >= 0.0 && n[5] <= 1.0)))
+        (count == 6 && !by_exemplar && !(n[5] >= 0.0 && n[5] <= 1.0)) ||
+        (count == 6 && by_exemplar && !is_exemplar(n[5])))
         return otx_fail(
             run, OSDTEX_ERROR_FORMAT, stage, otx_text_where(text),
             "a line is face,x,y,z or face,x,y,z,scale or "
             "face,x,y,z,scale,material: a face of the cage from 0, a "
-            "direction, a positive factor, and a number from 0 to 1");
+            "direction, a positive factor, and a number from 0 to 1, or from "
+            "1 where the first line says exemplar");
     *out = (otx_constraint_line){
         .face = (int32_t)n[0],
         .has_direction = n[1] != 0.0 || n[2] != 0.0 || n[3] != 0.0,
         .direction = {n[1], n[2], n[3]},
         .scale = count >= 5 ? n[4] : 0.0,
-        .has_material = count == 6,
-        .material = count == 6 ? n[5] : 0.0};
+        .has_material = count == 6 && !by_exemplar,
+        .material = count == 6 && !by_exemplar ? n[5] : 0.0,
+        .exemplar = count == 6 && by_exemplar ? (int32_t)n[5] : 0};
     return OSDTEX_OK;
 }
 
-/* The first line may name the columns. */
+/* The first line may name the columns; only the sixth is looked at. */
 static otx_status
 read_csv(otx_run *run, otx_text *text, otx_constraint_file *out)
 {
     int32_t capacity = 0;
-    bool first = true;
+    bool first = true, by_exemplar = false;
 
     while (otx_text_next(text))
         ++capacity;
@@ -310,8 +369,11 @@ read_csv(otx_run *run, otx_text *text, otx_constraint_file *out)
             continue;
         count = read_numbers(line, numbers, 6);
         if (count >= 0 || !first)
-            OTX_TRY(
-                read_row(run, text, numbers, count, &out->lines[out->count++]));
+            OTX_TRY(read_row(
+                run, text, by_exemplar, numbers, count,
+                &out->lines[out->count++]));
+        else
+            by_exemplar = names_exemplar(line);
         first = false;
     }
     return OSDTEX_OK;

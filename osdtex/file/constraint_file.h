@@ -18,6 +18,8 @@ typedef struct otx_constraint_line
     double scale; /* 0 says nothing */
     bool has_material;
     double material;
+    int32_t exemplar;          /* from 1; 0 says nothing */
+    const char *exemplar_name; /* NULL none; at most one of the two */
 } otx_constraint_line;
 
 typedef struct otx_constraint_file

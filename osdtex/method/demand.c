@@ -334,15 +334,43 @@ bool
 otx_demand_in(const otx_constraint_set *set)
 {
     for (int32_t i = 0; set && i < set->count; ++i)
-        if (set->items[i].has_material)
+        if (set->items[i].has_material || set->items[i].exemplar > 0)
             return true;
     return false;
 }
 
-static uint8_t
-nearest(double material, int32_t count)
+/* How much a constraint asks for exemplar k. A material lies between the two
+ * that are nearest to it. */
+static double
+weight_of(const otx_constraint *item, int32_t k, int32_t count)
 {
-    return (uint8_t)floor(material * (count - 1) + 0.5);
+    if (item->exemplar > 0)
+        return item->exemplar == k + 1 ? 1.0 : 0.0;
+    return fmax(0.0, 1.0 - fabs(item->material * (count - 1) - k));
+}
+
+/* The same constraints, which ask for one exemplar as a material from 0 to 1.
+ *
+ *   items  [set->count]
+ *
+ * False when none of them asks for it. */
+static bool
+weigh_items(
+    const otx_constraint_set *set, int32_t k, int32_t count,
+    otx_constraint *items)
+{
+    bool any = false;
+
+    for (int32_t i = 0; i < set->count; ++i)
+    {
+        const otx_constraint *item = &set->items[i];
+
+        items[i] = *item;
+        items[i].has_material = item->has_material || item->exemplar > 0;
+        items[i].material = weight_of(item, k, count);
+        any |= items[i].has_material && items[i].material > 0.0;
+    }
+    return any;
 }
 
 /* What faces of the cage ask for themselves, -1 nothing; the last holds. */
@@ -356,8 +384,17 @@ list_asked(
     for (int32_t f = 0; asked && f < cage->face_count; ++f)
         asked[f] = -1;
     for (int32_t i = 0; asked && i < set->count; ++i)
-        if (set->items[i].has_material && set->items[i].face >= 0)
-            asked[set->items[i].face] = nearest(set->items[i].material, count);
+    {
+        const otx_constraint *item = &set->items[i];
+
+        if (item->face < 0 || item->face >= cage->face_count)
+            continue;
+        if (item->exemplar > 0)
+            asked[item->face] = item->exemplar - 1;
+        else if (item->has_material)
+            asked[item->face] =
+                (int32_t)floor(item->material * (count - 1) + 0.5);
+    }
     return asked;
 }
 
@@ -372,28 +409,89 @@ face_mean(const otx_level *leaf, int32_t face, const double *values)
     return sum / size;
 }
 
+/* What the faces weigh while exemplars are gone through. */
+typedef struct contest
+{
+    double *most; /* [leaf face_count] of one exemplar */
+    double *sum;  /* [leaf face_count] of all but the first */
+    uint8_t *demand;
+} contest;
+
+/* Exemplar k takes the faces on which it weighs no less than those before. */
+static otx_status
+weigh_faces(
+    otx_run *run, const otx_surface *surface,
+    const otx_constraint_set *constraints, int32_t k, const contest *c)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const otx_level *leaf = otx_surface_leaf(surface);
+    double *values;
+
+    OTX_TRY(otx_density_spread(
+        run, surface, constraints, OTX_CONSTRAINT_MATERIAL, &values));
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        const double weight = face_mean(leaf, f, values);
+
+        c->sum[f] += weight;
+        if (weight < c->most[f])
+            continue;
+        c->most[f] = weight;
+        c->demand[f] = (uint8_t)k;
+    }
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
+
+/* The first one has what the others leave of 1: all, where nothing is asked. */
+static void
+settle(const otx_level *leaf, const int32_t *asked, const contest *c)
+{
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        const int32_t held = asked[leaf->face_cage[f]];
+
+        if (held >= 0)
+            c->demand[f] = (uint8_t)held;
+        else if (1.0 - c->sum[f] > c->most[f])
+            c->demand[f] = 0;
+    }
+}
+
+static otx_status
+hold_contest(
+    otx_run *run, const otx_surface *surface, const otx_constraint_set *set,
+    int32_t count, const contest *c)
+{
+    otx_constraint *items = OTX_NEW(run->scratch, otx_constraint, set->count);
+    otx_constraint_set weighed = *set;
+    int32_t *asked;
+
+    if (!items || !c->most || !c->sum)
+        return otx_fail_memory(run, STAGE);
+    weighed.items = items;
+    for (int32_t k = 1; k < count; ++k)
+        if (weigh_items(set, k, count, items))
+            OTX_TRY(weigh_faces(run, surface, &weighed, k, c));
+    asked = list_asked(run, surface->cage, set, count);
+    if (!asked)
+        return otx_fail_memory(run, STAGE);
+    settle(otx_surface_leaf(surface), asked, c);
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_demand_constraints(
     otx_run *run, const otx_surface *surface,
     const otx_constraint_set *constraints, int32_t count, uint8_t *demand)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    const otx_level *leaf = otx_surface_leaf(surface);
-    const int32_t *asked;
-    double *values;
+    const int32_t faces = otx_surface_leaf(surface)->face_count;
+    const contest c = {
+        OTX_ZNEW(run->scratch, double, faces),
+        OTX_ZNEW(run->scratch, double, faces), demand};
 
-    OTX_TRY(otx_density_spread(
-        run, surface, constraints, OTX_CONSTRAINT_MATERIAL, &values));
-    asked = list_asked(run, surface->cage, constraints, count);
-    if (!asked)
-        return otx_fail_memory(run, STAGE);
-    for (int32_t f = 0; f < leaf->face_count; ++f)
-    {
-        const int32_t held = asked[leaf->face_cage[f]];
-
-        demand[f] = held >= 0 ? (uint8_t)held
-                              : nearest(face_mean(leaf, f, values), count);
-    }
+    OTX_TRY(hold_contest(run, surface, constraints, count, &c));
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }

@@ -57,12 +57,18 @@ otx_status otx_demand_picture(
     otx_run *run, const otx_surface *surface, const otx_demand_mask *mask,
     int32_t count, uint8_t *demand);
 
-/* Whether a set asks for materials. */
+/* Whether a set asks for materials or exemplars. */
 bool otx_demand_in(const otx_constraint_set *constraints);
 
-/* By the materials among constraints, from 0, the first exemplar, to 1, the
- * last: at faces of the cage as they say, elsewhere by what is interpolated
- * between them. As otx_constraint_interpolate. */
+/* By constraints that name an exemplar or, as a material from 0 to 1, one on
+ * the way from the first to the last: at faces of the cage as they say; for
+ * the others each exemplar gets a weight that is harmonic between what is
+ * asked, and the largest wins. So what is asked at two places meets half way,
+ * and no third comes between.
+ *
+ *   constraints  exemplars of which are numbers up to `count`
+ *
+ * As otx_constraint_interpolate. */
 otx_status otx_demand_constraints(
     otx_run *run, const otx_surface *surface,
     const otx_constraint_set *constraints, int32_t count, uint8_t *demand);

@@ -168,6 +168,30 @@ class Several(MaskTest):
         for f, texture in enumerate(faces):
             self.assertEqual(texture, f"out_{f // of % 2 + 1}.exr")
 
+    def test_constraints_name_exemplars(self):
+        rules = self.folder / "who.json"
+        rules.write_text(json.dumps({"constraints": [
+            {"face": 0, "exemplar": 1},
+            {"face": 3, "exemplar": "grass_tile"},
+            {"face": 12, "exemplar": "gravel_tile.png"},
+            {"face": 15, "exemplar": str(GRAVEL)}]}))
+        table = self.folder / "who.csv"
+        table.write_text("face,x,y,z,scale,exemplar\n" + "".join(
+            f"{f},0,0,0,1,{k}\n"
+            for f, k in zip(range(16), (1,) * 3 + (2,) + 11 * (0,) + (3,))))
+        for path in rules, table:
+            self.map("--also", GRASS, "--also", GRAVEL, "--constraints", path,
+                     "--set", "transition=0", cage=PLANE)
+            faces = Model(self.folder / "out.obj").textures
+            self.assertEqual(
+                [faces[f * len(faces) // 16] for f in (0, 3, 15)],
+                ["out_1.exr", "out_2.exr", "out_3.exr"])
+        result = self.run_program(
+            "field", PLANE, "-o", self.folder / "f.csv", "--constraints",
+            rules)
+        self.assert_exit(result, 0)
+        self.assertIn("a field does not hold", result.stderr)
+
     def test_threads_do_not_matter(self):
         for threads in (1, 4):
             self.map("--also", f"{MATERIAL}={GRASS}", "--threads", threads,
@@ -245,6 +269,22 @@ class Refused(MaskTest):
             1, "--scale takes", "--also", f"{MATERIAL}={GRASS}", "--scale",
             "1,-2")
         self.refused(3, "moss.png", "--also", f"{MATERIAL}=moss.png")
+
+    def test_exemplars_of_constraints(self):
+        rules = self.folder / "who.json"
+        for value in (3, "moss"):
+            rules.write_text(json.dumps(
+                {"constraints": [{"face": 0, "exemplar": value}]}))
+            self.refused(
+                1, f"constraint 1 asks for exemplar {value}, which is not one "
+                "of 1 'pebbles_tile.png', 2 'grass_tile.png'",
+                "--also", GRASS, "--constraints", rules)
+        self.refused(1, "asks for exemplar moss", "--constraints", rules)
+        rules.write_text(json.dumps(
+            {"constraints": [{"face": 0, "exemplar": "grass_tile"}]}))
+        self.refused(
+            1, "a number tells apart", "--also", GRASS, "--also", GRASS,
+            "--constraints", rules)
 
     def test_other_methods(self):
         for method in ("material", "tile"):

@@ -68,6 +68,35 @@ reads_csv(void **state)
 }
 
 static void
+reads_exemplars(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_constraint_file f;
+
+    (void)state;
+    assert_int_equal(
+        read_text(
+            run, "json",
+            "{\"constraints\": [{\"face\": 7, \"exemplar\": 3},\n"
+            "  {\"face\": 8, \"exemplar\": \"moss.png\"}]}",
+            &f),
+        OSDTEX_OK);
+    assert_int_equal(f.lines[0].exemplar, 3);
+    assert_null(f.lines[0].exemplar_name);
+    assert_int_equal(f.lines[1].exemplar, 0);
+    assert_string_equal(f.lines[1].exemplar_name, "moss.png");
+    assert_int_equal(
+        read_text(
+            run, "csv",
+            "face,x,y,z,scale, exemplar\n0,0,0,0,1,4\n1,0,0,0,1,0\n", &f),
+        OSDTEX_OK);
+    assert_int_equal(f.lines[0].exemplar, 4);
+    assert_int_equal(f.lines[1].exemplar, 0);
+    assert_false(f.lines[0].has_material || f.lines[1].has_material);
+    test_run_destroy(run);
+}
+
+static void
 refuses_with_a_sentence(void **state)
 {
     static const struct
@@ -83,6 +112,15 @@ refuses_with_a_sentence(void **state)
         {"json", "{\"constraints\": [{\"face\": 1, \"material\": 2}]}",
          "0 to 1"},
         {"csv", "0,1,0,0,1,7\n", "face,x,y,z"},
+        {"csv", "face,x,y,z,scale,exemplar\n0,1,0,0,1,0.5\n", "from 1"},
+        {"json", "{\"constraints\": [{\"face\": 1, \"exemplar\": 0}]}",
+         "from 1"},
+        {"json", "{\"constraints\": [{\"face\": 1, \"exemplar\": \"\"}]}",
+         "from 1"},
+        {"json",
+         "{\"constraints\": [{\"face\": 1, \"exemplar\": 1, "
+         "\"material\": 0}]}",
+         "give one"},
         {"json", "{\"constraints\": [{\"face\": 1}]}", "constraint 1"},
         {"json", "{\"constraints\": [{\"direction\": [1,0,0]}]}", "point"},
         {"json", "{\"constraints\": [{\"face\": -1, \"scale\": 1}]}", "from 0"},
@@ -117,6 +155,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reads_json),
         cmocka_unit_test(reads_csv),
+        cmocka_unit_test(reads_exemplars),
         cmocka_unit_test(refuses_with_a_sentence),
     };
 
