@@ -109,12 +109,12 @@ find_peaks(const otx_lags *map, peak peaks[PEAKS_MAX])
     for (int32_t y = 0; y < r; ++y)
         for (int32_t x = 1 - r; x < r; ++x)
         {
-            peak p = {
-                refine_peak(map, x, y), map->at[(y + r) * w + x + r], 0.0};
+            peak p = {.value = map->at[(y + r) * w + x + r]};
 
-            if ((y == 0 && x <= 0) || p.value < 0.05 ||
-                otx_vec2_length(p.at) < apart ||
-                otx_vec2_length(p.at) > r - 1 || !is_peak(map, x, y))
+            if ((y == 0 && x <= 0) || p.value < 0.05 || !is_peak(map, x, y))
+                continue;
+            p.at = refine_peak(map, x, y);
+            if (otx_vec2_length(p.at) < apart || otx_vec2_length(p.at) > r - 1)
                 continue;
             p.rank = p.value * (1.0 - 0.5 * otx_vec2_length(p.at) / r);
             count = insert_peak(peaks, count, p, apart);
@@ -288,24 +288,32 @@ void
 otx_lattice_find(const otx_lags *map, otx_lattice *out)
 {
     peak peaks[PEAKS_MAX];
+    rated pairs[PEAKS_MAX * (PEAKS_MAX - 1) / 2];
     const int32_t count = find_peaks(map, peaks);
-    rated best = {.regularity = -INFINITY}, l;
+    rated best = {.regularity = -INFINITY};
     double most = -INFINITY, smallest = INFINITY;
+    int32_t pair_count = 0;
 
     for (int32_t i = 0; i < count; ++i)
         for (int32_t j = 0; j < i; ++j)
-            if (rate_peaks(map, &peaks[i], &peaks[j], &l))
-                most = fmax(most, l.regularity + l.contrast);
-    for (int32_t i = 0; i < count; ++i)
-        for (int32_t j = 0; j < i; ++j)
         {
-            if (!rate_peaks(map, &peaks[i], &peaks[j], &l) ||
-                l.regularity + l.contrast < NEARLY * most ||
-                fabs(otx_vec2_cross(l.g[0], l.g[1])) >= smallest)
+            rated *l = &pairs[pair_count];
+
+            if (!rate_peaks(map, &peaks[i], &peaks[j], l))
                 continue;
-            smallest = (1.0 - 1e-6) * fabs(otx_vec2_cross(l.g[0], l.g[1]));
-            best = l;
+            most = fmax(most, l->regularity + l->contrast);
+            ++pair_count;
         }
+    for (int32_t k = 0; k < pair_count; ++k)
+    {
+        const rated *l = &pairs[k];
+        const double area = fabs(otx_vec2_cross(l->g[0], l->g[1]));
+
+        if (l->regularity + l->contrast < NEARLY * most || area >= smallest)
+            continue;
+        smallest = (1.0 - 1e-6) * area;
+        best = *l;
+    }
     *out = (otx_lattice){0};
     if (!isfinite(best.regularity))
         return;

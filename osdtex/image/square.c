@@ -1,29 +1,79 @@
 /* square.c -- the middle of a picture, as it is analysed. */
 #include "image/square.h"
 
+#include <string.h>
+
 enum
 {
-    SIDE_MAX = 512
+    SIDE_MAX = 512,
+    STRIP = 32 /* values of a row that are blurred together */
 };
 
-/* One pass of a Gaussian along x from `from` to the transposed of `to`;
- * normalised by what of the kernel lies inside. */
+/* -- blur ---------------------------------------------------------------- */
+
+/* One pass of a Gaussian over n x n values. */
+typedef struct blur
+{
+    int32_t n;
+    const float *kernel; /* of [-radius, radius] */
+    int32_t radius;
+    const float *from;
+    float *to;
+} blur;
+
+/* A strip of one row of the mean over rows: neighbours are summed at the same
+ * time, each in the order of the rows, so that the processor's lanes are full
+ * whatever the order of a sum may not be. */
 static void
-blur_rows(const float *from, float *to, int32_t n, const float *k, int32_t r)
+blur_strip(const blur *b, int32_t row, int32_t first, int32_t width)
+{
+    const int32_t low = row < b->radius ? -row : -b->radius;
+    const int32_t last = b->n - 1 - row;
+    const int32_t high = last < b->radius ? last : b->radius;
+    float sum[STRIP] = {0.0f}, weight = 0.0f;
+
+    for (int32_t i = low; i <= high; ++i)
+    {
+        const float *from =
+            b->from + (size_t)(row + i) * (size_t)b->n + (size_t)first;
+        const float k = b->kernel[i];
+
+        weight += k;
+        if (width == STRIP)
+            for (int32_t x = 0; x < STRIP; ++x)
+                sum[x] += k * from[x];
+        else
+            for (int32_t x = 0; x < width; ++x)
+                sum[x] += k * from[x];
+    }
+    for (int32_t x = 0; x < width; ++x)
+        b->to[(size_t)row * (size_t)b->n + (size_t)(first + x)] =
+            sum[x] / weight;
+}
+
+/* Normalised by what of the kernel lies inside. */
+static otx_status
+blur_row(void *context, int64_t row, otx_worker *worker)
+{
+    const blur *b = context;
+
+    (void)worker;
+    for (int32_t x = 0; x < b->n; x += STRIP)
+        blur_strip(b, (int32_t)row, x, b->n - x < STRIP ? b->n - x : STRIP);
+    return OSDTEX_OK;
+}
+
+static void
+transpose(float *f, int32_t n)
 {
     for (int32_t y = 0; y < n; ++y)
-        for (int32_t x = 0; x < n; ++x)
+        for (int32_t x = 0; x < y; ++x)
         {
-            const int32_t low = x < r ? -x : -r;
-            const int32_t high = x + r >= n ? n - 1 - x : r;
-            float sum = 0.0f, weight = 0.0f;
+            const float above = f[(size_t)x * (size_t)n + (size_t)y];
 
-            for (int32_t i = low; i <= high; ++i)
-            {
-                sum += k[i] * from[(size_t)y * (size_t)n + (size_t)(x + i)];
-                weight += k[i];
-            }
-            to[(size_t)x * (size_t)n + (size_t)y] = sum / weight;
+            f[(size_t)x * (size_t)n + (size_t)y] =
+                f[(size_t)y * (size_t)n + (size_t)x];
+            f[(size_t)y * (size_t)n + (size_t)x] = above;
         }
 }
 
@@ -34,15 +84,24 @@ otx_square_blur(
     const int32_t r = (int32_t)ceil(2.5 * sigma);
     float *kernel = OTX_NEW(run->scratch, float, 2 * r + 1);
     float *temp = OTX_NEW(run->scratch, float, (int64_t)n *n);
+    blur b = {n, NULL, r, to, temp};
 
     if (!kernel || !temp)
         return otx_fail_memory(run, "exemplar");
     for (int32_t i = -r; i <= r; ++i)
         kernel[r + i] = (float)exp(-0.5 * i * i / (sigma * sigma));
-    blur_rows(from, temp, n, kernel + r, r);
-    blur_rows(temp, to, n, kernel + r, r);
-    return OSDTEX_OK;
+    b.kernel = kernel + r;
+    /* Along x, which is across the rows of what is transposed, then along y. */
+    memcpy(to, from, (size_t)n * (size_t)n * sizeof *to);
+    transpose(to, n);
+    OTX_TRY(otx_pool_for(run->pool, n, blur_row, &b));
+    transpose(temp, n);
+    b.from = temp;
+    b.to = to;
+    return otx_pool_for(run->pool, n, blur_row, &b);
 }
+
+/* -- square -------------------------------------------------------------- */
 
 /* Mean luminance of a texel of the square. */
 static float
