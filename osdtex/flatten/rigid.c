@@ -164,6 +164,14 @@ best_rotation(const otx_rigid_triangle *t, const otx_vec2 *flat)
     return length > 0.0 ? otx_vec2_scale(1.0 / length, turn) : turn;
 }
 
+/* Of edge (k, k + 1): what corner k gains and the other loses. */
+static otx_vec2
+edge_pull(const otx_rigid_triangle *t, otx_vec2 turn, int k)
+{
+    return otx_vec2_scale(
+        t->w[k], otx_vec2_mul(turn, otx_vec2_sub(t->q[k], t->q[(k + 1) % 3])));
+}
+
 void
 otx_rigid_pull(const otx_rigid *rigid, const otx_vec2 *flat, otx_vec2 *b)
 {
@@ -177,12 +185,71 @@ otx_rigid_pull(const otx_rigid *rigid, const otx_vec2 *flat, otx_vec2 *b)
         for (int k = 0; k < 3; ++k)
         {
             const int m = (k + 1) % 3;
-            const otx_vec2 pull = otx_vec2_scale(
-                t->w[k], otx_vec2_mul(turn, otx_vec2_sub(t->q[k], t->q[m])));
+            const otx_vec2 pull = edge_pull(t, turn, k);
 
             b[t->v[k]] = otx_vec2_add(b[t->v[k]], pull);
             b[t->v[m]] = otx_vec2_sub(b[t->v[m]], pull);
         }
+    }
+}
+
+otx_status
+otx_rigid_fans_build(
+    otx_arena *arena, const otx_rigid *rigid, otx_rigid_fans *out)
+{
+    const int32_t n = rigid->vert_count, corners = 3 * rigid->triangle_count;
+
+    out->first = OTX_ZNEW(arena, int32_t, (int64_t)n + 1);
+    out->corners = OTX_NEW(arena, int32_t, corners);
+    out->turns = OTX_NEW(arena, otx_vec2, rigid->triangle_count);
+    if (!out->first || !out->corners || !out->turns)
+        return OSDTEX_ERROR_MEMORY;
+    for (int32_t c = 0; c < corners; ++c)
+        ++out->first[rigid->triangles[c / 3].v[c % 3] + 1];
+    for (int32_t v = 0; v < n; ++v)
+        out->first[v + 1] += out->first[v];
+    for (int32_t c = 0; c < corners; ++c)
+        out->corners[out->first[rigid->triangles[c / 3].v[c % 3]]++] = c;
+    for (int32_t v = n; v > 0; --v)
+        out->first[v] = out->first[v - 1];
+    out->first[0] = 0;
+    return OSDTEX_OK;
+}
+
+void
+otx_rigid_fans_turn(
+    const otx_rigid *rigid, const otx_vec2 *flat, int32_t first, int32_t end,
+    otx_rigid_fans *fans)
+{
+    for (int32_t i = first; i < end; ++i)
+        fans->turns[i] = best_rotation(&rigid->triangles[i], flat);
+}
+
+/* A corner has the edge that starts and the one that ends there; the order is
+ * that in which otx_rigid_pull adds them. */
+void
+otx_rigid_fans_pull(
+    const otx_rigid *rigid, const otx_rigid_fans *fans, int32_t first,
+    int32_t end, otx_vec2 *b)
+{
+    for (int32_t v = first; v < end; ++v)
+    {
+        otx_vec2 sum = {0, 0};
+
+        for (int32_t i = fans->first[v]; i < fans->first[v + 1]; ++i)
+        {
+            const int32_t triangle = fans->corners[i] / 3;
+            const int k = fans->corners[i] % 3;
+            const otx_rigid_triangle *t = &rigid->triangles[triangle];
+            const otx_vec2 turn = fans->turns[triangle];
+
+            if (k > 0)
+                sum = otx_vec2_sub(sum, edge_pull(t, turn, k - 1));
+            sum = otx_vec2_add(sum, edge_pull(t, turn, k));
+            if (k == 0)
+                sum = otx_vec2_sub(sum, edge_pull(t, turn, 2));
+        }
+        b[v] = sum;
     }
 }
 

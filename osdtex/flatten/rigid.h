@@ -50,6 +50,30 @@ otx_rigid_build(otx_arena *arena, const otx_rigid_mesh *mesh, otx_rigid *out);
 /* b = sum of w R (q_i - q_j), with the rotations that are best for `flat`. */
 void otx_rigid_pull(const otx_rigid *rigid, const otx_vec2 *flat, otx_vec2 *b);
 
+/* For those who share the same sums among threads: the corners around each
+ * vertex, in the order of the triangles. */
+typedef struct otx_rigid_fans
+{
+    int32_t *first;   /* [vert_count + 1] */
+    int32_t *corners; /* 3 * triangle + corner */
+    otx_vec2 *turns;  /* [triangle_count] best rotations */
+} otx_rigid_fans;
+
+/* In `arena`. MEMORY, without a finding. */
+otx_status otx_rigid_fans_build(
+    otx_arena *arena, const otx_rigid *rigid, otx_rigid_fans *out);
+
+/* The rotations of the triangles [first, end) that are best for `flat`. */
+void otx_rigid_fans_turn(
+    const otx_rigid *rigid, const otx_vec2 *flat, int32_t first, int32_t end,
+    otx_rigid_fans *fans);
+
+/* b of the rows [first, end), with all rotations: the bits of otx_rigid_pull.
+ */
+void otx_rigid_fans_pull(
+    const otx_rigid *rigid, const otx_rigid_fans *fans, int32_t first,
+    int32_t end, otx_vec2 *b);
+
 /* out = Laplacian x, of the rows [first, end) */
 void otx_rigid_apply(
     const otx_rigid *rigid, const otx_vec2 *x, int32_t first, int32_t end,

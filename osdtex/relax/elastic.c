@@ -17,6 +17,7 @@ enum
     CG_ROUNDS = 15,
     SEAMS_PER_TASK = 256,
     FACES_PER_TASK = 1024,
+    ROWS_PER_TASK = 2048,
     TAKE_BACK_ROUNDS = 64
 };
 
@@ -27,10 +28,16 @@ static const double DAMPING = 1e-2; /* of the diagonal */
 /* Normal equations of one seam: unknowns a0 a1 b0 b1, x and y of each. */
 typedef struct seam_block
 {
-    double diagonal[8];
+    double h[8][8]; /* upper triangle */
     double g[8];
-    double energy;
 } seam_block;
+
+/* What one end of a seam adds to its variable's right-hand side (taken away)
+ * and diagonal. */
+typedef struct seam_share
+{
+    otx_vec2 g, diagonal;
+} seam_share;
 
 /* The rows of one end of a seam, and the variables that they are applied to.
  * Ends lie in the order of their own variables, so that a product reads memory
@@ -56,14 +63,18 @@ typedef struct elastic
     int32_t exemplar_count;
     const otx_elastic_options *options;
     otx_sheet sheet;
+    otx_rigid_fans fans;
     uint8_t *source; /* [count] the exemplar of each variable */
     otx_pyramid *pyramids;
     view *views;
-    seam_block *blocks;
+    double *energies;   /* [seam_count] */
     int32_t *end_first; /* [count + 1] offsets into ends */
     seam_end *ends;
-    int32_t *end_at; /* [4 * seam_count] where each end of a seam lies */
+    seam_share *shares; /* like ends */
+    int32_t *end_at;    /* [4 * seam_count] where each end of a seam lies */
     otx_vec2 *step, *b, *diagonal, *moved;
+    double *terms;   /* [count] of the rigid energy */
+    double energy;   /* before the round */
     uint8_t *held;   /* variables taken back this round */
     double *sigma;   /* [face_count] badness of each face before the round */
     double *badness; /* [face_count] and now */
@@ -169,23 +180,18 @@ seam_energy(const elastic *e, const otx_sheet_seam *seam, const otx_vec2 *at)
 
 /* Adds one residual with its row of the Jacobian, to the upper triangle. */
 static void
-add_row(
-    seam_block *block, double h[8][8], const double row[8], double residual,
-    double weight)
+add_row(seam_block *block, const double row[8], double residual, double weight)
 {
     for (int i = 0; i < 8; ++i)
     {
         block->g[i] += weight * row[i] * residual;
         for (int j = i; j < 8; ++j)
-            h[i][j] += weight * row[i] * row[j];
+            block->h[i][j] += weight * row[i] * row[j];
     }
-    block->energy += weight * residual * residual;
 }
 
 static void
-add_samples(
-    const elastic *e, const otx_sheet_seam *seam, seam_block *block,
-    double h[8][8])
+add_samples(const elastic *e, const otx_sheet_seam *seam, seam_block *block)
 {
     const otx_vec2 *at = e->sheet.at;
     const int32_t n = sample_count(seam->length);
@@ -207,7 +213,7 @@ add_samples(
                                    -(1.0 - t) * db[c].x, -(1.0 - t) * db[c].y,
                                    -t * db[c].x,         -t * db[c].y};
 
-            add_row(block, h, row, a[c] - b[c], weight);
+            add_row(block, row, a[c] - b[c], weight);
         }
     }
 }
@@ -215,18 +221,20 @@ add_samples(
 static void
 linearise(elastic *e, int64_t index)
 {
-    seam_block *block = &e->blocks[index];
-    double h[8][8] = {{0.0}};
+    seam_block block = {0};
 
-    *block = (seam_block){.energy = 0.0};
-    add_samples(e, &e->sheet.seams[index], block, h);
-    for (int i = 0; i < 8; ++i)
+    add_samples(e, &e->sheet.seams[index], &block);
+    for (int end = 0; end < 4; ++end)
     {
-        float *row = e->ends[e->end_at[4 * index + i / 2]].row[i % 2];
+        const int32_t at = e->end_at[4 * index + end];
+        const int x = 2 * end, y = x + 1;
 
-        block->diagonal[i] = h[i][i];
-        for (int j = 0; j < 8; ++j)
-            row[j] = (float)(i < j ? h[i][j] : h[j][i]);
+        e->shares[at] = (seam_share){
+            {block.g[x], block.g[y]}, {block.h[x][x], block.h[y][y]}};
+        for (int i = x; i <= y; ++i)
+            for (int j = 0; j < 8; ++j)
+                e->ends[at].row[i - x][j] =
+                    (float)(i < j ? block.h[i][j] : block.h[j][i]);
     }
 }
 
@@ -252,11 +260,11 @@ measure_seams(void *context, int64_t index, otx_worker *worker)
 
     (void)worker;
     for (int64_t i = first; i < end && i < e->sheet.seam_count; ++i)
-        e->blocks[i].energy = seam_energy(e, &e->sheet.seams[i], e->sheet.at);
+        e->energies[i] = seam_energy(e, &e->sheet.seams[i], e->sheet.at);
     return OSDTEX_OK;
 }
 
-/* Sum over the blocks, in order. */
+/* Sum over the seams, in order. */
 static otx_status
 total_seam_energy(elastic *e, double *out)
 {
@@ -266,24 +274,71 @@ total_seam_energy(elastic *e, double *out)
     OTX_TRY(otx_pool_for(e->run->pool, tasks, measure_seams, e));
     *out = 0.0;
     for (int32_t i = 0; i < e->sheet.seam_count; ++i)
-        *out += e->blocks[i].energy;
+        *out += e->energies[i];
     return OSDTEX_OK;
 }
 
-/* Rigidity: sum of u . (L u - 2 b) up to a constant that depends only on the
- * surface, with the best rotations. */
-static double
-rigid_energy(elastic *e)
+/* -- rigidity ------------------------------------------------------------ */
+
+/* Runs a body over blocks of `size` of `count`. Bodies do not fail. */
+static void
+over_blocks(elastic *e, int32_t count, int32_t size, otx_pool_body body)
 {
-    const otx_vec2 *at = e->sheet.at;
+    otx_pool_for(e->run->pool, ((int64_t)count + size - 1) / size, body, e);
+}
+
+static int32_t
+block_end(int64_t first, int32_t size, int32_t count)
+{
+    return first + size < count ? (int32_t)first + size : count;
+}
+
+static otx_status
+turn_faces(void *context, int64_t index, otx_worker *worker)
+{
+    elastic *e = context;
+    const otx_rigid *rigid = &e->sheet.rigid;
+    const int64_t first = index * FACES_PER_TASK;
+
+    (void)worker;
+    otx_rigid_fans_turn(
+        rigid, e->sheet.at, (int32_t)first,
+        block_end(first, FACES_PER_TASK, rigid->triangle_count), &e->fans);
+    return OSDTEX_OK;
+}
+
+/* Pulls into b, products with the Laplacian into step. */
+static otx_status
+measure_rows(void *context, int64_t index, otx_worker *worker)
+{
+    elastic *e = context;
+    const int32_t first = (int32_t)index * ROWS_PER_TASK;
+    const int32_t end = block_end(first, ROWS_PER_TASK, e->sheet.count);
+
+    (void)worker;
+    otx_rigid_fans_pull(&e->sheet.rigid, &e->fans, first, end, e->b);
+    otx_rigid_apply(&e->sheet.rigid, e->sheet.at, first, end, e->step);
+    for (int32_t v = first; v < end; ++v)
+        e->terms[v] = otx_vec2_dot(
+            e->sheet.at[v],
+            otx_vec2_sub(e->step[v], otx_vec2_scale(2.0, e->b[v])));
+    return OSDTEX_OK;
+}
+
+/* Of the seams, and sum of u . (L u - 2 b) up to a constant that depends only
+ * on the surface, with the best rotations. */
+static otx_status
+total_energy(elastic *e, double *out)
+{
     double sum = 0.0;
 
-    otx_rigid_pull(&e->sheet.rigid, at, e->b);
-    otx_rigid_apply(&e->sheet.rigid, at, 0, e->sheet.count, e->step);
+    OTX_TRY(total_seam_energy(e, out));
+    over_blocks(e, e->sheet.rigid.triangle_count, FACES_PER_TASK, turn_faces);
+    over_blocks(e, e->sheet.count, ROWS_PER_TASK, measure_rows);
     for (int32_t v = 0; v < e->sheet.count; ++v)
-        sum += otx_vec2_dot(
-            at[v], otx_vec2_sub(e->step[v], otx_vec2_scale(2.0, e->b[v])));
-    return e->options->stiffness * sum;
+        sum += e->terms[v];
+    *out += e->options->stiffness * sum;
+    return OSDTEX_OK;
 }
 
 /* -- the linear system --------------------------------------------------- */
@@ -345,38 +400,41 @@ apply(
     hold_rim(&e->sheet, first, end, out);
 }
 
-/* Right-hand side stiffness (b - L u) - J^T r, and the diagonal. */
+static otx_status
+prepare_rows(void *context, int64_t index, otx_worker *worker)
+{
+    elastic *e = context;
+    const otx_sheet *s = &e->sheet;
+    const double stiffness = e->options->stiffness;
+    const int32_t first = (int32_t)index * ROWS_PER_TASK;
+    const int32_t end = block_end(first, ROWS_PER_TASK, s->count);
+
+    (void)worker;
+    for (int32_t v = first; v < end; ++v)
+    {
+        const double d = stiffness * s->rigid.diagonal[v] + 1e-9;
+        otx_vec2 b =
+            otx_vec2_scale(stiffness, otx_vec2_sub(e->b[v], e->step[v]));
+        otx_vec2 diagonal = {d, d};
+
+        for (int32_t i = e->end_first[v]; i < e->end_first[v + 1]; ++i)
+        {
+            b = otx_vec2_sub(b, e->shares[i].g);
+            diagonal = otx_vec2_add(diagonal, e->shares[i].diagonal);
+        }
+        e->b[v] = b;
+        e->diagonal[v] = diagonal;
+    }
+    hold_rim(s, first, end, e->b);
+    return OSDTEX_OK;
+}
+
+/* Right-hand side stiffness (b - L u) - J^T r, and the diagonal. Pulls and
+ * products are those that the energy was measured with. */
 static void
 prepare_system(elastic *e)
 {
-    const double stiffness = e->options->stiffness;
-    const otx_sheet *s = &e->sheet;
-
-    otx_rigid_pull(&s->rigid, s->at, e->b);
-    otx_rigid_apply(&s->rigid, s->at, 0, s->count, e->step);
-    for (int32_t v = 0; v < s->count; ++v)
-    {
-        const double d = stiffness * s->rigid.diagonal[v] + 1e-9;
-
-        e->b[v] = otx_vec2_scale(stiffness, otx_vec2_sub(e->b[v], e->step[v]));
-        e->diagonal[v] = (otx_vec2){d, d};
-        e->step[v] = (otx_vec2){0.0, 0.0};
-    }
-    for (int32_t i = 0; i < s->seam_count; ++i)
-    {
-        const seam_block *block = &e->blocks[i];
-        int32_t v[4];
-
-        seam_variables(&s->seams[i], v);
-        for (int k = 0; k < 4; ++k)
-        {
-            e->b[v[k]].x -= block->g[2 * k];
-            e->b[v[k]].y -= block->g[2 * k + 1];
-            e->diagonal[v[k]].x += block->diagonal[2 * k];
-            e->diagonal[v[k]].y += block->diagonal[2 * k + 1];
-        }
-    }
-    hold_rim(s, 0, s->count, e->b);
+    over_blocks(e, e->sheet.count, ROWS_PER_TASK, prepare_rows);
 }
 
 /* -- steps that are allowed ---------------------------------------------- */
@@ -536,7 +594,8 @@ move(elastic *e, double share, double longest, int64_t *refused)
 }
 
 /* One Gauss-Newton step, halved until the energy falls; left out when it does
- * not. */
+ * not. The energy and the badness of faces are known, and are again when the
+ * step was taken. */
 static otx_status
 round_of(elastic *e, int32_t level, bool *improved, otx_elastic_stats *stats)
 {
@@ -545,12 +604,11 @@ round_of(elastic *e, int32_t level, bool *improved, otx_elastic_stats *stats)
     const int64_t tasks = (s->seam_count + SEAMS_PER_TASK - 1) / SEAMS_PER_TASK;
     const otx_rigid_system system = {
         s->count, apply, e, e->diagonal, CG_ROUNDS, CG_TOLERANCE, e->run->pool};
+    double *badness = e->badness;
+    double after, share = 1.0;
     otx_vec2 *step;
-    double seam, before, after, share = 1.0;
 
     OTX_TRY(otx_pool_for(e->run->pool, tasks, linearise_seams, e));
-    OTX_TRY(total_seam_energy(e, &seam));
-    before = seam + rigid_energy(e);
     prepare_system(e);
     step = OTX_ZNEW(e->run->scratch, otx_vec2, s->count);
     if (!step)
@@ -558,21 +616,24 @@ round_of(elastic *e, int32_t level, bool *improved, otx_elastic_stats *stats)
     if (otx_rigid_solve(e->run->scratch, &system, e->b, step) != OSDTEX_OK)
         return otx_fail_memory(e->run, "relax");
     memcpy(e->moved, s->at, (size_t)s->count * sizeof *s->at);
-    OTX_TRY(judge(e, 0, e->sigma));
+    e->badness = e->sigma;
+    e->sigma = badness;
     *improved = false;
     for (int32_t attempt = 0; attempt < 4 && !*improved; ++attempt)
     {
         memcpy(e->step, step, (size_t)s->count * sizeof *step);
         OTX_TRY(move(e, share, 2.0 * (1 << level), &stats->refused));
-        OTX_TRY(total_seam_energy(e, &seam));
-        after = seam + rigid_energy(e);
-        *improved = after < before;
+        OTX_TRY(total_energy(e, &after));
+        *improved = after < e->energy;
         share *= 0.5;
     }
     if (!*improved)
         memcpy(s->at, e->moved, (size_t)s->count * sizeof *s->at);
     else
+    {
+        e->energy = after;
         ++stats->rounds;
+    }
     otx_arena_release(e->run->scratch, mark);
     return OSDTEX_OK;
 }
@@ -605,6 +666,11 @@ run_levels(elastic *e, otx_elastic_stats *stats)
         bool improved = true;
 
         look_at(e, level);
+        if (done < until)
+        {
+            OTX_TRY(total_energy(e, &e->energy));
+            OTX_TRY(judge(e, 0, e->badness));
+        }
         for (; done < until && improved; ++done)
         {
             OTX_TRY(otx_progress(
@@ -711,7 +777,8 @@ allocate(elastic *e)
     otx_arena *arena = e->run->scratch;
     const int32_t n = e->sheet.count;
 
-    e->blocks = OTX_NEW(arena, seam_block, e->sheet.seam_count);
+    e->energies = OTX_NEW(arena, double, e->sheet.seam_count);
+    e->terms = OTX_NEW(arena, double, n);
     e->step = OTX_NEW(arena, otx_vec2, n);
     e->b = OTX_NEW(arena, otx_vec2, n);
     e->diagonal = OTX_NEW(arena, otx_vec2, n);
@@ -722,10 +789,12 @@ allocate(elastic *e)
     e->badness = OTX_NEW(arena, double, e->sheet.face_count);
     e->end_first = OTX_ZNEW(arena, int32_t, (int64_t)n + 1);
     e->ends = OTX_NEW(arena, seam_end, 4 * (int64_t)e->sheet.seam_count);
+    e->shares = OTX_NEW(arena, seam_share, 4 * (int64_t)e->sheet.seam_count);
     e->end_at = OTX_NEW(arena, int32_t, 4 * (int64_t)e->sheet.seam_count);
-    if (!e->badness || !e->end_first || !e->ends || !e->end_at || !e->blocks ||
-        !e->step || !e->b || !e->diagonal || !e->moved || !e->held ||
-        !e->sigma || !e->source)
+    if (!e->badness || !e->end_first || !e->ends || !e->end_at ||
+        !e->energies || !e->shares || !e->terms || !e->step || !e->b ||
+        !e->diagonal || !e->moved || !e->held || !e->sigma || !e->source ||
+        otx_rigid_fans_build(arena, &e->sheet.rigid, &e->fans) != OSDTEX_OK)
         return otx_fail_memory(e->run, "relax");
     list_ends(e);
     list_sources(e);

@@ -76,6 +76,31 @@ a_turned_plane_is_at_rest(void **state)
 }
 
 static void
+fans_pull_as_the_triangles_do(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_vec2 flat[VERTS], b[VERTS], sums[VERTS];
+    const otx_rigid rigid = build(run, 0.8, flat);
+    const int32_t half = rigid.triangle_count / 2;
+    otx_rigid_fans fans;
+
+    (void)state;
+    assert_int_equal(
+        otx_rigid_fans_build(run->scratch, &rigid, &fans), OSDTEX_OK);
+    otx_rigid_pull(&rigid, flat, b);
+    otx_rigid_fans_turn(&rigid, flat, half, rigid.triangle_count, &fans);
+    otx_rigid_fans_turn(&rigid, flat, 0, half, &fans);
+    otx_rigid_fans_pull(&rigid, &fans, VERTS / 2, VERTS, sums);
+    otx_rigid_fans_pull(&rigid, &fans, 0, VERTS / 2, sums);
+    for (int32_t v = 0; v < VERTS; ++v)
+    {
+        assert_true(sums[v].x == b[v].x);
+        assert_true(sums[v].y == b[v].y);
+    }
+    test_run_destroy(run);
+}
+
+static void
 apply(
     const void *context, const otx_vec2 *x, int32_t first, int32_t end,
     otx_vec2 *out)
@@ -110,6 +135,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_laplacian_ignores_translations),
         cmocka_unit_test(a_turned_plane_is_at_rest),
+        cmocka_unit_test(fans_pull_as_the_triangles_do),
         cmocka_unit_test(the_solver_solves),
     };
 
