@@ -9,6 +9,8 @@
 #include "base/run.h"
 #include "image/colour.h"
 
+#include <osdtex/osdtex.h>
+
 enum
 {
     OTX_CALL_TIMES_MAX = 16

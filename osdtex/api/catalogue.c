@@ -1,6 +1,8 @@
 /* catalogue.c -- the table of methods and their settings, for anyone. */
 #include "method/method.h"
 
+#include <osdtex/osdtex.h>
+
 _Static_assert(
     (int)OSDTEX_OPTION_REAL == (int)OTX_OPTION_REAL &&
         (int)OSDTEX_OPTION_INTEGER == (int)OTX_OPTION_INTEGER &&

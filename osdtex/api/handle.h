@@ -9,6 +9,8 @@
 #include "method/method.h"
 #include "render/scene.h"
 
+#include <osdtex/osdtex.h>
+
 struct osdtex_cage
 {
     otx_arena *arena;

@@ -5,6 +5,8 @@
 #include "image/exemplar.h"
 #include "method/method.h"
 
+#include <osdtex/osdtex.h>
+
 /* Reads a file of constraints, and what the field is to follow instead of what
  * the file says; `*out` is NULL when both are. */
 otx_status otx_map_input_constraints(

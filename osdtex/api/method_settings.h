@@ -4,6 +4,8 @@
 
 #include "method/method.h"
 
+#include <osdtex/osdtex.h>
+
 /* The defaults of `method` with the caller's settings over them, as they come
  * out for this exemplar, in run->arena. ARGUMENT, MEMORY. */
 otx_status otx_method_settings_read(

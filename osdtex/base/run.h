@@ -8,6 +8,8 @@
 #include "base/arena.h"
 #include "base/pool.h"
 
+#include <osdtex/context.h>
+
 /* Where a finding is. Zero-initialise with OTX_NOWHERE and set what is known.
  */
 typedef struct otx_where

@@ -5,7 +5,7 @@
 #ifndef OTX_BASE_STATUS_H
 #define OTX_BASE_STATUS_H
 
-#include <osdtex/osdtex.h>
+#include <osdtex/common.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -9,6 +9,7 @@
 #include "base/pool.h"
 
 #include <math.h>
+#include <osdtex/version.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -10,6 +10,7 @@
 
 #include <errno.h>
 #include <openexr.h>
+#include <osdtex/version.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -8,5 +8,5 @@ cd "$(dirname "$0")"
 LC_ALL=C
 export LC_ALL
 nm -D --defined-only "$library" | awk '{print $3}' | sort | diff -u symbols.txt -
-grep -o 'osdtex_[a-z_]*(' ../../include/osdtex/osdtex.h | tr -d '(' |
+grep -ho 'osdtex_[a-z_]*(' ../../include/osdtex/*.h | tr -d '(' |
     grep -v '_default$\|_none$' | sort -u | diff -u symbols.txt -

@@ -57,6 +57,22 @@ class Tree(unittest.TestCase):
         self.put("cli/map.c", '#include "base/arena.h"\n')
         self.refused('cli may not include "base/arena.h"')
 
+    def test_below_the_api_only_findings_are_public(self):
+        public = self.root / "include" / "osdtex"
+        public.mkdir()
+        for name in ("context.h", "osdtex.h"):
+            (public / name).write_text("typedef int osdtex_status;\n")
+        self.put("base/run.h", "#include <osdtex/context.h>\n")
+        self.put("api/call.h", "#include <osdtex/osdtex.h>\n")
+        self.put("cli/flag.h", "#include <osdtex/osdtex.h>\n")
+        self.assertEqual(check(self.root).stdout, "")
+        self.put("math/fft.h", "#include <osdtex/osdtex.h>\n")
+        self.refused("math may not include <osdtex/osdtex.h>")
+
+    def test_public_header_that_cpp_refuses(self):
+        (self.root / "include" / "image.h").write_text("extern int class;\n")
+        self.refused("image.h: does not compile alone")
+
     def test_include_without_room(self):
         self.put("math/fft.c", '#include "vec.h"\n')
         self.refused("without its room")

@@ -6,8 +6,8 @@ include(CMakePackageConfigHelpers)
 install(TARGETS osdtex_shared osdtex_static
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES include/osdtex/osdtex.h
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/osdtex)
+install(DIRECTORY include/osdtex DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.h")
 if(TARGET osdtex)
   install(TARGETS osdtex RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

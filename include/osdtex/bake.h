@@ -1,0 +1,72 @@
+/* bake.h -- the cage with textures on its UVs. */
+#ifndef OSDTEX_BAKE_H
+#define OSDTEX_BAKE_H
+
+#include <osdtex/mapping.h>
+
+OSDTEX_BEGIN_DECLS
+
+/* Onto which texture coordinates a mapping is baked. */
+typedef int32_t osdtex_bake_uvs;
+enum
+{
+    OSDTEX_BAKE_UVS_AUTO = 0, /* the cage's where it has UVs */
+    OSDTEX_BAKE_UVS_OWN = 1,  /* the cage's, on UDIM tiles */
+    OSDTEX_BAKE_UVS_ATLAS = 2 /* a block for every face of the cage */
+};
+
+/* What is baked besides the colour, as 32-bit NAME_patch.<UDIM>.exr and so on:
+ * values at the texel's centre, never averaged; blue is 1 on the surface and 0
+ * beyond. */
+enum
+{
+    OSDTEX_BAKE_PATCH = 1,   /* number of the patch, face of the cage */
+    OSDTEX_BAKE_UV = 2,      /* UV in the exemplar */
+    OSDTEX_BAKE_STRETCH = 4, /* L2 stretch, ratio of the axes; 1 is none */
+    OSDTEX_BAKE_SEAM = 8     /* 1 where patches meet */
+};
+
+typedef struct osdtex_bake_options
+{
+    size_t size;
+    const char *const *comments; /* [comment_count] lines for the texts */
+    int32_t comment_count;
+    osdtex_bake_uvs uvs;
+    int32_t resolution;          /* texels of a tile's side, up to 32768 */
+    int32_t margin;              /* texels continued beyond the rims of charts;
+                                  * 0 chooses */
+    double texels_per_unit;      /* of an atlas; 0: what fills one tile */
+    double seam_blend;           /* texels over which patches are blended */
+    uint32_t extras;             /* OSDTEX_BAKE_PATCH | … */
+    int32_t preview_png;         /* 1: also NAME.<UDIM>.png, at most 1024 texels
+                                  * a side, and NAME_preview.mtl */
+    const char *texture_comment; /* for the headers of textures; NULL */
+    /* Not NULL: with the bake, what osdtex_mapping_write() writes. */
+    const osdtex_write_options *mesh;
+    int32_t udim; /* bake this tile only; 0 all */
+    int32_t reserved;
+} osdtex_bake_options;
+
+static inline osdtex_bake_options
+osdtex_bake_options_default(void)
+{
+    osdtex_bake_options options = OSDTEX_ZERO;
+
+    options.size = sizeof options;
+    options.uvs = OSDTEX_BAKE_UVS_AUTO;
+    options.resolution = 4096;
+    return options;
+}
+
+/* Bakes a mapping into textures of the cage: NAME_cage.obj and NAME_cage.mtl,
+ * NAME.<UDIM>.exr (1001 for the unit square), NAME.usda and NAME.mtlx, all or
+ * none of them. `path` is FOLDER/NAME.obj; that file itself is written only
+ * where options->mesh asks for it. ARGUMENT (no such tile), IO, LIMIT (UVs
+ * outside of UDIM), MEMORY, CANCELLED. */
+OSDTEX_API osdtex_status osdtex_bake(
+    osdtex_context *context, const osdtex_mapping *mapping, const char *path,
+    const osdtex_bake_options *options);
+
+OSDTEX_END_DECLS
+
+#endif

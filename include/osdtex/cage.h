@@ -1,0 +1,143 @@
+/* cage.h -- the artist's control mesh, validated. */
+#ifndef OSDTEX_CAGE_H
+#define OSDTEX_CAGE_H
+
+#include <osdtex/context.h>
+
+OSDTEX_BEGIN_DECLS
+
+typedef struct osdtex_cage osdtex_cage;
+
+typedef int32_t osdtex_scheme;
+enum
+{
+    OSDTEX_SCHEME_CATMARK = 0,
+    OSDTEX_SCHEME_LOOP = 1, /* triangles only */
+    OSDTEX_SCHEME_BILINEAR = 2,
+    OSDTEX_SCHEME_NONE = 3 /* a plain mesh of triangles or polygons: its
+                            * own vertices and faces get UVs, positions
+                            * stay as they are; the level is 0 */
+};
+
+/* What the file's tag says, else USD's default. */
+enum
+{
+    OSDTEX_UNSET = -1
+};
+
+/* What happens at the rim, in USD's words. */
+typedef int32_t osdtex_boundary;
+enum
+{
+    OSDTEX_BOUNDARY_NONE = 0,
+    OSDTEX_BOUNDARY_EDGE_ONLY = 1,
+    OSDTEX_BOUNDARY_EDGE_AND_CORNER = 2 /* USD's default */
+};
+
+/* How the cage's UVs are smoothed, in USD's words. */
+typedef int32_t osdtex_fvar;
+enum
+{
+    OSDTEX_FVAR_NONE = 0,
+    OSDTEX_FVAR_CORNERS_ONLY = 1,
+    OSDTEX_FVAR_CORNERS_PLUS1 = 2, /* USD's default */
+    OSDTEX_FVAR_CORNERS_PLUS2 = 3,
+    OSDTEX_FVAR_BOUNDARIES = 4,
+    OSDTEX_FVAR_ALL = 5
+};
+
+typedef struct osdtex_cage_options
+{
+    size_t size;
+    osdtex_scheme scheme;
+    osdtex_boundary boundary; /* OSDTEX_UNSET: the file's */
+    osdtex_fvar fvar;         /* OSDTEX_UNSET: the file's */
+    int32_t reserved;
+} osdtex_cage_options;
+
+static inline osdtex_cage_options
+osdtex_cage_options_default(void)
+{
+    osdtex_cage_options options = OSDTEX_ZERO;
+
+    options.size = sizeof options;
+    options.scheme = OSDTEX_SCHEME_CATMARK;
+    options.boundary = OSDTEX_UNSET;
+    options.fvar = OSDTEX_UNSET;
+    return options;
+}
+
+/* A cage as arrays. They are copied. */
+typedef struct osdtex_cage_arrays
+{
+    size_t size;
+    osdtex_index vert_count;
+    osdtex_index face_count;
+    const float *points;            /* [vert_count * 3], scene units */
+    const osdtex_index *face_sizes; /* [face_count], 3 or more */
+    const osdtex_index *face_verts; /* [sum of face_sizes], 0-based,
+                                     * counter-clockwise outside */
+    osdtex_index uv_count;
+    osdtex_index crease_count;
+    const float *uvs;                 /* [uv_count * 2]; NULL none */
+    const osdtex_index *face_uvs;     /* [sum of face_sizes]; NULL none */
+    const osdtex_index *crease_verts; /* [crease_count * 2] */
+    const float *crease_sharpness;    /* [crease_count], 10 is infinite */
+    osdtex_index corner_count;
+    osdtex_index hole_count;
+    const osdtex_index *corner_verts; /* [corner_count] */
+    const float *corner_sharpness;    /* [corner_count] */
+    const osdtex_index *hole_faces;   /* [hole_count] */
+} osdtex_cage_arrays;
+
+static inline osdtex_cage_arrays
+osdtex_cage_arrays_none(void)
+{
+    osdtex_cage_arrays arrays = OSDTEX_ZERO;
+
+    arrays.size = sizeof arrays;
+    return arrays;
+}
+
+typedef struct osdtex_cage_info
+{
+    const char *path; /* as given, NULL when made from arrays */
+    const char *hash; /* of the file's bytes, NULL when made from arrays */
+    osdtex_scheme scheme;
+    osdtex_boundary boundary; /* as resolved */
+    osdtex_fvar fvar;         /* as resolved */
+    osdtex_index vert_count;
+    osdtex_index face_count;
+    osdtex_index edge_count;
+    osdtex_index uv_count; /* 0: the cage has no UVs */
+    osdtex_index crease_count;
+    osdtex_index corner_count; /* sharp vertices */
+    osdtex_index hole_count;
+    osdtex_index triangle_count;
+    osdtex_index quad_count;
+    osdtex_index component_count;
+    osdtex_index boundary_edge_count;
+    osdtex_index material_count;
+    osdtex_index group_count;
+    float lower[3]; /* of the bounding box, scene units */
+    float upper[3];
+    double diagonal;         /* of the bounding box */
+    double mean_edge_length; /* scene units */
+    double default_scale;    /* what a scale of 0 means: diagonal / 5 */
+} osdtex_cage_info;
+
+/* Reads an OBJ. FORMAT, TOPOLOGY, LIMIT, NUMERIC, IO, MEMORY. */
+OSDTEX_API osdtex_status osdtex_cage_read(
+    osdtex_context *context, const char *path,
+    const osdtex_cage_options *options, osdtex_cage **out);
+/* ARGUMENT, and as osdtex_cage_read but for IO. */
+OSDTEX_API osdtex_status osdtex_cage_create(
+    osdtex_context *context, const osdtex_cage_arrays *arrays,
+    const osdtex_cage_options *options, osdtex_cage **out);
+OSDTEX_API const osdtex_cage_info *
+osdtex_cage_describe(const osdtex_cage *cage);
+OSDTEX_API void osdtex_cage_destroy(osdtex_cage *cage);
+
+OSDTEX_END_DECLS
+
+#endif

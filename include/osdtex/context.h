@@ -1,0 +1,82 @@
+/* context.h -- memory, threads, colour, and where findings go. */
+#ifndef OSDTEX_CONTEXT_H
+#define OSDTEX_CONTEXT_H
+
+#include <osdtex/common.h>
+
+OSDTEX_BEGIN_DECLS
+
+typedef struct osdtex_context osdtex_context;
+
+typedef int32_t osdtex_severity;
+enum
+{
+    OSDTEX_SEVERITY_INFO = 0, /* a decision the user may want to know */
+    OSDTEX_SEVERITY_WARNING = 1,
+    OSDTEX_SEVERITY_ERROR = 2
+};
+
+/* One finding. Like findings are folded: `count` says how many, the place is
+ * that of the first. Strings live until osdtex_diagnostic_clear or the end of
+ * the context. */
+typedef struct osdtex_diagnostic
+{
+    osdtex_severity severity;
+    osdtex_status status; /* OSDTEX_OK unless severity is ERROR */
+    const char *stage;    /* "cage", "colour", "map", … */
+    const char *file;     /* NULL where no file is concerned */
+    int64_t line;         /* 1-based, 0 none */
+    osdtex_index face;    /* 0-based, -1 none */
+    osdtex_index vertex;  /* 0-based, -1 none */
+    int64_t count;        /* 1 or more */
+    const char *message;  /* one sentence */
+} osdtex_diagnostic;
+
+typedef struct osdtex_context_options
+{
+    size_t size;
+    /* Allocation hooks, called from several threads. `alloc` returns NULL on
+     * failure, `release` gets the size back. NULL: malloc and free. */
+    void *(*alloc)(void *user, size_t bytes);
+    void (*release)(void *user, void *block, size_t bytes);
+    void *alloc_user;
+    size_t memory_limit; /* bytes, 0 none */
+    /* Says how far `stage` has come, in [0, 1]; false cancels. Called from the
+     * thread that made the call. NULL none. */
+    bool (*progress)(void *user, const char *stage, double fraction);
+    void *progress_user;
+    /* Called for each new finding, not for its repeats. NULL none. */
+    void (*log)(void *user, const osdtex_diagnostic *finding);
+    void *log_user;
+    /* OpenColorIO configuration file; NULL: $OCIO, else the one built in.
+     * Opened when the first colour is met. */
+    const char *colorconfig;
+    int32_t threads; /* 0: the cores of the machine */
+    int32_t reserved;
+} osdtex_context_options;
+
+static inline osdtex_context_options
+osdtex_context_options_default(void)
+{
+    osdtex_context_options options = OSDTEX_ZERO;
+
+    options.size = sizeof options;
+    return options;
+}
+
+/* ARGUMENT (threads below 0 or above 256), MEMORY. */
+OSDTEX_API osdtex_status osdtex_context_create(
+    const osdtex_context_options *options, osdtex_context **out);
+OSDTEX_API void osdtex_context_destroy(osdtex_context *context);
+
+/* Findings in the order of their first occurrence. */
+OSDTEX_API int32_t osdtex_diagnostic_count(const osdtex_context *context);
+/* ARGUMENT when there is no finding `index`. */
+OSDTEX_API osdtex_status osdtex_diagnostic_get(
+    const osdtex_context *context, int32_t index, osdtex_diagnostic *out);
+/* Forgets all findings: like ones are folded until then. MEMORY. */
+OSDTEX_API osdtex_status osdtex_diagnostic_clear(osdtex_context *context);
+
+OSDTEX_END_DECLS
+
+#endif

@@ -1,0 +1,129 @@
+/* exemplar.h -- the picture of a material, its colours resolved. */
+#ifndef OSDTEX_EXEMPLAR_H
+#define OSDTEX_EXEMPLAR_H
+
+#include <osdtex/image.h>
+
+OSDTEX_BEGIN_DECLS
+
+typedef struct osdtex_exemplar osdtex_exemplar;
+
+/* In what colours are compared. */
+typedef int32_t osdtex_embedding;
+enum
+{
+    OSDTEX_EMBEDDING_HSV_CONE = 0,
+    OSDTEX_EMBEDDING_HSV_CYLINDER = 1,
+    OSDTEX_EMBEDDING_LAB = 2,
+    OSDTEX_EMBEDDING_RGB = 3
+};
+
+/* Whether the picture continues across its own border. */
+typedef int32_t osdtex_wrap;
+enum
+{
+    OSDTEX_WRAP_AUTO = 0, /* tested, for each axis */
+    OSDTEX_WRAP_NO = 1,
+    OSDTEX_WRAP_YES = 2
+};
+
+/* What becomes of a picture that does not tile. UVs refer to the picture that
+ * is made, so maps that lie on the file's pixels no longer fit: by default it
+ * is kept. */
+typedef int32_t osdtex_tileable;
+enum
+{
+    OSDTEX_TILEABLE_AUTO = 0, /* made to, where that is judged good */
+    OSDTEX_TILEABLE_KEEP = 1, /* stays; patches keep inside it */
+    OSDTEX_TILEABLE_MAKE = 2  /* made to: windows of the picture are sewn
+                               * over the line where its borders meet */
+};
+
+typedef struct osdtex_exemplar_options
+{
+    size_t size;
+    /* Colour spaces by name, alias or role; NULL: by the stated rules. */
+    const char *from;        /* of the file */
+    const char *to;          /* of what is written; role scene_linear */
+    const char *match_space; /* in which colours are compared */
+    osdtex_embedding embedding;
+    osdtex_wrap wrap;
+    osdtex_tileable tileable;
+    int32_t reserved;
+} osdtex_exemplar_options;
+
+static inline osdtex_exemplar_options
+osdtex_exemplar_options_default(void)
+{
+    osdtex_exemplar_options options = OSDTEX_ZERO;
+
+    options.size = sizeof options;
+    options.embedding = OSDTEX_EMBEDDING_HSV_CONE;
+    options.wrap = OSDTEX_WRAP_AUTO;
+    options.tileable = OSDTEX_TILEABLE_KEEP;
+    return options;
+}
+
+typedef struct osdtex_exemplar_info
+{
+    const char *path;         /* as given, NULL when made from an image */
+    const char *hash;         /* of the file's bytes, NULL likewise */
+    const char *type;         /* "8-bit", "half", …; NULL likewise */
+    const char *source_space; /* as resolved */
+    const char *linear_space;
+    const char *match_space;
+    const char *embedding;
+    int32_t width;
+    int32_t height;
+    int32_t channels; /* of `pixels`: 3 or 4 */
+    int32_t wrap_x;   /* 1: tiles left to right */
+    int32_t wrap_y;
+    int32_t made_tileable; /* 1: the pixels are not those of the file */
+    const float *pixels;   /* in linear_space, bottom row first */
+    int32_t source_width;  /* of the picture whose width a scale means:
+                            * as read, before it was cropped to be made to
+                            * tile, or the one tiles were made of */
+    int32_t tile_size;     /* texels; 0: this is no tiled texture */
+} osdtex_exemplar_info;
+
+/* Reads EXR, PNG, TIFF or JPEG, told by content. FORMAT, SUPPORT, LIMIT,
+ * NUMERIC (a pixel that is not finite), COLOUR, IO, MEMORY. */
+OSDTEX_API osdtex_status osdtex_exemplar_read(
+    osdtex_context *context, const char *path,
+    const osdtex_exemplar_options *options, osdtex_exemplar **out);
+/* The same from pixels, which are scene-linear unless `from` says else. */
+OSDTEX_API osdtex_status osdtex_exemplar_create(
+    osdtex_context *context, const osdtex_image *image,
+    const osdtex_exemplar_options *options, osdtex_exemplar **out);
+OSDTEX_API const osdtex_exemplar_info *
+osdtex_exemplar_describe(const osdtex_exemplar *exemplar);
+
+/* Length of leaf edges, in scene units, that suits the exemplar when its width
+ * covers `scale` scene units: 14 texels, but a 48th of the shorter side at most
+ * and a 128th at least. Seams run along leaf edges. */
+OSDTEX_API double
+osdtex_exemplar_leaf_edge(const osdtex_exemplar *exemplar, double scale);
+
+/* Whether an exemplar has a direction, or a lattice. */
+typedef struct osdtex_exemplar_structure
+{
+    const char *name; /* "isotropic", "directional", "weak-lattice",
+                       * "lattice" */
+    int32_t symmetry; /* turns by 360 / symmetry degrees look the same: 1,
+                       * 2, 4; 0: all turns do */
+    int32_t reserved;
+    double angle;         /* of its direction, radians */
+    double generators[4]; /* of a lattice, texels; else 0 */
+    double coherence;     /* of direction, 0 .. 1 */
+    double regularity;    /* of the lattice that fits best, 0 .. 1 */
+} osdtex_exemplar_structure;
+
+/* ARGUMENT, MEMORY. */
+OSDTEX_API osdtex_status osdtex_exemplar_analyse(
+    osdtex_context *context, const osdtex_exemplar *exemplar,
+    osdtex_exemplar_structure *out);
+OSDTEX_API void osdtex_exemplar_destroy(osdtex_exemplar *exemplar);
+
+OSDTEX_END_DECLS
+
+#endif

@@ -1,0 +1,141 @@
+/* mapping.h -- UVs into the exemplar for every leaf face. */
+#ifndef OSDTEX_MAPPING_H
+#define OSDTEX_MAPPING_H
+
+#include <osdtex/exemplar.h>
+#include <osdtex/method.h>
+#include <osdtex/surface.h>
+
+OSDTEX_BEGIN_DECLS
+
+typedef struct osdtex_mapping osdtex_mapping;
+
+enum
+{
+    OSDTEX_EXEMPLARS_MAX = 4 /* of a mapping */
+};
+
+/* One more exemplar of a mapping. */
+typedef struct osdtex_also
+{
+    const osdtex_exemplar *exemplar; /* borrowed as the first is */
+    const char *material; /* of the cage: its faces show it; NULL none */
+    double scale; /* width in scene units; 0: as many texels to a unit as
+                   * the first has */
+} osdtex_also;
+
+typedef struct osdtex_map_options
+{
+    size_t size;
+    const char *method; /* NULL: the first of the table; "auto": by the
+                         * exemplar */
+    const osdtex_setting *settings; /* [setting_count], later ones win */
+    int32_t setting_count;
+    osdtex_index first_face; /* of the cage: where to begin; -1 free */
+    double first_u;          /* UV that the first patch's middle gets */
+    double first_v;
+    double first_angle; /* radians, counter-clockwise in the picture */
+    double scale;       /* width of the exemplar in scene units; 0:
+                         * osdtex_cage_info.default_scale */
+    uint64_t seed;
+    /* A file of constraints on direction, scale and exemplars, JSON or CSV;
+     * NULL none. */
+    const char *constraints;
+    /* "isotropic", "directional", "weak-lattice" or "lattice"; NULL: the
+     * exemplar is analysed. */
+    const char *exemplar_class;
+    /* Two vectors, in texels, by which the exemplar repeats; all 0: analysed.
+     */
+    double generators[4];
+    /* What the field follows, as for osdtex_field_options; NULL: what the file
+     * of constraints says, else nothing. */
+    const char *follow;
+    /* Up to three exemplars more, for methods that mix them. Which a face shows
+     * is said by its material, by a mask, by a table or by the constraints
+     * (docs/notes/mask.md); the first exemplar goes wherever nothing is said.
+     */
+    const osdtex_also *also; /* [also_count] */
+    int32_t also_count;
+    int32_t reserved;
+    /* A picture on the cage's UVs: black asks for the first exemplar, red,
+     * green and blue for the second to fourth. It fills the unit square; UVs
+     * beyond it need a picture for each UDIM tile that a face lies in, and a
+     * name that holds <UDIM> for 1001 and on, or <UVTILE> for u1_v1:
+     * "mask.<UDIM>.exr". They are read one after the other. NULL none. */
+    const char *mask;
+    /* [face_count of the cage] 0 the first exemplar, 1 the second, and so on;
+     * NULL none. */
+    const uint8_t *face_exemplars;
+} osdtex_map_options;
+
+static inline osdtex_map_options
+osdtex_map_options_default(void)
+{
+    osdtex_map_options options = OSDTEX_ZERO;
+
+    options.size = sizeof options;
+    options.first_face = -1;
+    options.first_u = 0.5;
+    options.first_v = 0.5;
+    options.seed = 1;
+    return options;
+}
+
+typedef struct osdtex_mapping_info
+{
+    const char *method;
+    double scale;                   /* as resolved */
+    osdtex_index face_count;        /* of the surface */
+    osdtex_index corner_count;      /* of the surface */
+    const float *uvs;               /* [corner_count * 2] */
+    const osdtex_index *face_patch; /* [face_count], -1 on holes */
+    osdtex_index patch_count;
+    int32_t exemplar_count;        /* 1 unless there are more */
+    const uint8_t *patch_exemplar; /* [patch_count] which one each patch is
+                                    * from, 0 the first; NULL: all are */
+} osdtex_mapping_info;
+
+/* ARGUMENT (with near names), LIMIT, NUMERIC, MEMORY, CANCELLED; of several
+ * exemplars also FORMAT and IO (of a mask) and SUPPORT (a method that takes
+ * one). */
+OSDTEX_API osdtex_status osdtex_map(
+    osdtex_context *context, const osdtex_surface *surface,
+    const osdtex_exemplar *exemplar, const osdtex_map_options *options,
+    osdtex_mapping **out);
+OSDTEX_API const osdtex_mapping_info *
+osdtex_mapping_describe(const osdtex_mapping *mapping);
+
+typedef struct osdtex_write_options
+{
+    size_t size;
+    const char *const *comments; /* [comment_count] lines for OBJ, MTL */
+    int32_t comment_count;
+    int32_t without_image; /* 1: neither write nor replace the EXR */
+} osdtex_write_options;
+
+static inline osdtex_write_options
+osdtex_write_options_default(void)
+{
+    osdtex_write_options options = OSDTEX_ZERO;
+
+    options.size = sizeof options;
+    return options;
+}
+
+/* Writes NAME.obj (`path`), NAME.mtl and NAME.exr, all or none of them. Of
+ * several exemplars NAME_1.exr, NAME_2.exr and so on, each with materials of
+ * its own. ARGUMENT, IO, LIMIT, MEMORY, CANCELLED. */
+OSDTEX_API osdtex_status osdtex_mapping_write(
+    osdtex_context *context, const osdtex_mapping *mapping, const char *path,
+    const osdtex_write_options *options);
+
+/* Writes what was done as JSON: inputs with hashes, options and colour
+ * decisions as resolved, patches, seams, distortion, times since the context
+ * was created, findings. IO, MEMORY. */
+OSDTEX_API osdtex_status osdtex_report_write(
+    osdtex_context *context, const osdtex_mapping *mapping, const char *path);
+OSDTEX_API void osdtex_mapping_destroy(osdtex_mapping *mapping);
+
+OSDTEX_END_DECLS
+
+#endif

@@ -1,0 +1,74 @@
+/* render.h -- pictures of the result. */
+#ifndef OSDTEX_RENDER_H
+#define OSDTEX_RENDER_H
+
+#include <osdtex/field.h>
+#include <osdtex/image.h>
+#include <osdtex/mapping.h>
+
+OSDTEX_BEGIN_DECLS
+
+typedef struct osdtex_model osdtex_model;
+
+/* Something to look at: a written OBJ with its MTL and textures. FORMAT, LIMIT,
+ * NUMERIC, COLOUR, IO, MEMORY. A texture that cannot be read is a warning. */
+OSDTEX_API osdtex_status osdtex_model_read(
+    osdtex_context *context, const char *path, osdtex_model **out);
+/* The same from a mapping, which it borrows. */
+OSDTEX_API osdtex_status osdtex_model_create(
+    osdtex_context *context, const osdtex_mapping *mapping, osdtex_model **out);
+/* The surface of a field, which it borrows, to be shown as "field" or
+ * "singularities". */
+OSDTEX_API osdtex_status osdtex_model_create_field(
+    osdtex_context *context, const osdtex_field *field, osdtex_model **out);
+/* A field to be shown on a model that was read, which borrows it: that of the
+ * same OBJ read as a cage of scheme none, on level 0. ARGUMENT where the
+ * field's surface has other faces than the model. */
+OSDTEX_API osdtex_status osdtex_model_add_field(
+    osdtex_context *context, osdtex_model *model, const osdtex_field *field);
+OSDTEX_API void osdtex_model_destroy(osdtex_model *model);
+
+typedef struct osdtex_render_options
+{
+    size_t size;
+    int32_t width;
+    int32_t height;
+    int32_t samples;  /* to a pixel's side: n * n, 1 .. 16 */
+    int32_t unlit;    /* 1: the colours as they are */
+    const char *show; /* "texture", "patches", "stretch", "seams", "uv",
+                       * "normals", "flat", "field", "singularities",
+                       * "cells"; NULL: texture */
+    const char *view; /* "three_quarter", "front", "back", "left", "right",
+                       * "top"; "seam1" to "seam99": close to the places
+                       * where seams show, the worst first; NULL:
+                       * three_quarter */
+    double turn;      /* of the view, radians about Y */
+    /* Where the eye is instead of `view`; fov 0: not used. */
+    double eye[3];
+    double target[3];
+    double fov;          /* of the picture's height, radians */
+    int32_t transparent; /* 1: alpha 0 around the model */
+    int32_t reserved;
+} osdtex_render_options;
+
+static inline osdtex_render_options
+osdtex_render_options_default(void)
+{
+    osdtex_render_options options = OSDTEX_ZERO;
+
+    options.size = sizeof options;
+    options.width = 1280;
+    options.height = 720;
+    options.samples = 4;
+    return options;
+}
+
+/* Renders into an RGBA image, scene-linear. ARGUMENT, NUMERIC, MEMORY,
+ * CANCELLED. */
+OSDTEX_API osdtex_status osdtex_render(
+    osdtex_context *context, const osdtex_model *model,
+    const osdtex_render_options *options, osdtex_image **out);
+
+OSDTEX_END_DECLS
+
+#endif
