@@ -88,7 +88,7 @@ typedef struct otx_cage
 enum
 {
     OTX_CAGE_UNSET = -1,          /* the user or the file does not say */
-    OTX_CAGE_VALENCE_MAX = 65535, /* edges of a vertex, corners of a face */
+    OTX_CAGE_VALENCE_MAX = 46340, /* edges of a vertex, corners of a face */
     OTX_CAGE_SHARPNESS_MAX = 10   /* infinitely sharp */
 };
 

@@ -14,6 +14,14 @@
 /* Squares of coordinates, and sums of them, stay finite as float. */
 static const float coordinate_max = 1e15f;
 
+/* The same of UVs. */
+static const float uv_max = 1e15f;
+
+enum
+{
+    TWINS_MAX = 8 /* faces of one edge that are compared with each other */
+};
+
 /* A face is flat when its area is below this share of its edges' squared
  * lengths: float's resolution, with a margin. */
 static const double flat_share = 1e-9;
@@ -169,15 +177,39 @@ otx_cage_check_points(otx_run *run, const otx_cage_input *in)
     return status;
 }
 
-static bool
-finite_uvs(const otx_cage_input *in)
+/* The first UV that is no place in a picture; uv_count: there is none. */
+static int32_t
+find_bad_uv(const otx_cage_input *in)
 {
-    for (size_t i = 0; i < 2 * (size_t)in->uv_count; ++i)
-    {
-        if (!isfinite(in->uvs[i]) || fabsf(in->uvs[i]) > coordinate_max)
-            return false;
-    }
-    return true;
+    int32_t i = 0;
+
+    /* Written so that NaN is bad, too. */
+    while (i < in->uv_count && fabsf(in->uvs[2 * (size_t)i]) <= uv_max &&
+           fabsf(in->uvs[2 * (size_t)i + 1]) <= uv_max)
+        ++i;
+    return i;
+}
+
+static void
+note_bad_uv(otx_run *run, const otx_cage_input *in, int32_t bad)
+{
+    const float u = in->uvs[2 * (size_t)bad];
+    const float v = in->uvs[2 * (size_t)bad + 1];
+    otx_where where = OTX_NOWHERE;
+
+    where.file = in->path;
+    if (isfinite(u) && isfinite(v))
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, STAGE, where,
+            "UV %d lies at (%g, %g), beyond the limit of %g, so the cage's UVs "
+            "are left out; unwrap the cage again to keep them",
+            bad, (double)u, (double)v, (double)uv_max);
+    else
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, STAGE, where,
+            "UV %d is not a finite number, so the cage's UVs are left out; "
+            "unwrap the cage again to keep them",
+            bad);
 }
 
 /* Counts corners without UV of a face into *missing. */
@@ -208,6 +240,7 @@ otx_cage_check_uvs(otx_run *run, const otx_cage_input *in, bool *usable)
     otx_where where = OTX_NOWHERE;
     otx_status status = OSDTEX_OK;
     int32_t missing = 0;
+    int32_t bad;
 
     *usable = false;
     if (!in->face_uvs || in->uv_count <= 0)
@@ -224,7 +257,8 @@ otx_cage_check_uvs(otx_run *run, const otx_cage_input *in, bool *usable)
     if (missing == in->face_first[in->face_count])
         return OSDTEX_OK;
     where.file = in->path;
-    *usable = missing == 0 && finite_uvs(in);
+    bad = find_bad_uv(in);
+    *usable = missing == 0 && bad == in->uv_count;
     if (missing > 0)
         otx_note(
             run, OSDTEX_SEVERITY_WARNING, STAGE, where,
@@ -232,16 +266,14 @@ otx_cage_check_uvs(otx_run *run, const otx_cage_input *in, bool *usable)
             "left out; unwrap the whole cage to keep them",
             missing, where.face);
     else if (!*usable)
-        otx_note(
-            run, OSDTEX_SEVERITY_WARNING, STAGE, where,
-            "a UV is not a finite number, so the cage's UVs are left out; "
-            "unwrap the cage again to keep them");
+        note_bad_uv(run, in, bad);
     return OSDTEX_OK;
 }
 
-/* Whether two faces have the same corners in the same cyclic order. */
+/* Whether two faces have the same corners in the same cyclic order, or, of
+ * step -1, in the opposite one. */
 static bool
-same_face(const otx_topology *t, int32_t a, int32_t b)
+same_face(const otx_topology *t, int32_t a, int32_t b, int32_t step)
 {
     const int32_t size = t->face_first[a + 1] - t->face_first[a];
     const int32_t *va = t->face_verts + t->face_first[a];
@@ -254,7 +286,7 @@ same_face(const otx_topology *t, int32_t a, int32_t b)
         ++shift;
     for (int32_t k = 0; k < size; ++k)
     {
-        if (shift == size || va[k] != vb[(k + shift) % size])
+        if (shift == size || va[k] != vb[(shift + step * k + size) % size])
             return false;
     }
     return true;
@@ -265,6 +297,29 @@ static bool
 same_direction(const otx_topology *t, int32_t corner_a, int32_t corner_b)
 {
     return t->face_verts[corner_a] == t->face_verts[corner_b];
+}
+
+/* Two faces at an edge with all corners in common. Of an edge with two faces
+ * they must be wound alike: two sides of a sheet are a surface. */
+static bool
+find_twins(const otx_topology *t, int32_t edge, int32_t *a, int32_t *b)
+{
+    const int32_t *corners = t->edge_corners + t->edge_corner_first[edge];
+    const int32_t edge_size = otx_topology_edge_size(t, edge);
+    const int32_t size = edge_size < TWINS_MAX ? edge_size : TWINS_MAX;
+
+    for (int32_t j = 1; j < size; ++j)
+        for (int32_t i = 0; i < j; ++i)
+        {
+            const bool alike = same_direction(t, corners[i], corners[j]);
+
+            *a = t->corner_face[corners[i]];
+            *b = t->corner_face[corners[j]];
+            if ((alike || edge_size > 2) &&
+                same_face(t, *a, *b, alike ? 1 : -1))
+                return true;
+        }
+    return false;
 }
 
 static otx_status
@@ -278,12 +333,13 @@ check_edge(
 
     if (size < 2)
         return OSDTEX_OK;
-    a = t->corner_face[corners[0]];
-    b = t->corner_face[corners[1]];
-    if (same_direction(t, corners[0], corners[1]) && same_face(t, a, b))
+    if (find_twins(t, edge, &a, &b))
         return otx_fail(
             run, OSDTEX_ERROR_TOPOLOGY, STAGE, otx_cage_check_at_face(in, b),
-            "face %d is the same as face %d; delete one of them", b, a);
+            "face %d has the same corners as face %d; delete one of them", b,
+            a);
+    a = t->corner_face[corners[0]];
+    b = t->corner_face[corners[1]];
     if (size > 2)
         return otx_fail(
             run, OSDTEX_ERROR_TOPOLOGY, STAGE, otx_cage_check_at_face(in, a),
