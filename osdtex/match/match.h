@@ -113,6 +113,11 @@ otx_status otx_matcher_create_like(
     double sigma, int32_t finest_level, const otx_matcher *like,
     otx_matcher **out);
 
+/* The longest diagonal of a mask that is searched for, in texels: four
+ * exemplars. What is around a patch for longer than that says nothing about
+ * where in the picture it should lie. */
+double otx_matcher_reach(const otx_matcher *matcher);
+
 /* The best placements, ascending by error (times usage), ties by angle, row,
  * column; the orientations are spread over the pool of the run.
  *
@@ -121,8 +126,8 @@ otx_status otx_matcher_create_like(
  *          does not tile, or when the mask holds no texel
  *
  * A mask larger than a tiling exemplar is compared with the repeated exemplar.
- * ARGUMENT for an empty mask, one of more than four exemplars, numbers that
- * are not finite, a query without angles; MEMORY. */
+ * ARGUMENT for an empty mask, one beyond the reach, numbers that are not
+ * finite, a query without angles; MEMORY. */
 otx_status otx_matcher_search(
     otx_run *run, const otx_matcher *matcher, const otx_mask *mask,
     const otx_match_query *query, otx_match *best, int32_t capacity,

@@ -20,7 +20,7 @@ enum
     FEW_SAMPLES = 300,
     FEWEST_FINALISTS = 4,
     SPARE_WINNERS = 1, /* scored besides what was asked for */
-    MAX_PERIODS = 4    /* a mask larger than this is a mistake */
+    MAX_PERIODS = 4    /* exemplars to the longest diagonal of a mask */
 };
 
 typedef struct candidate
@@ -344,6 +344,12 @@ collect(search *s, otx_match *best, int32_t capacity, int32_t *count)
 
 /* ---------------------------------------------------------------- entry */
 
+double
+otx_matcher_reach(const otx_matcher *matcher)
+{
+    return MAX_PERIODS * hypot(matcher->width, matcher->height);
+}
+
 static const char *
 query_complaint(const otx_match_query *query)
 {
@@ -386,7 +392,7 @@ find_complaint(
         return "A search needs room for one match.";
     box = otx_mask_bounds(mask, &frame);
     if (hypot(box.high.x - box.low.x, box.high.y - box.low.y) >
-        MAX_PERIODS * hypot(m->width, m->height))
+        otx_matcher_reach(m))
         return "The mask is more than four times as large as the exemplar; "
                "use a smaller patch or a larger exemplar.";
     return query_complaint(query);

@@ -61,3 +61,25 @@ otx_band_clip(
     cross(t, reach, limit, c, first, &out[1], 2);
     return 2;
 }
+
+void
+otx_band_keep_near(
+    otx_mask_triangle *triangles, int32_t *count, otx_vec2 middle, double sight)
+{
+    int32_t kept = 0;
+
+    for (int32_t i = 0; i < *count; ++i)
+    {
+        double far = 0.0;
+
+        for (int k = 0; k < 3; ++k)
+        {
+            const otx_vec2 d = otx_vec2_sub(triangles[i].flat[k], middle);
+
+            far = fmax(far, fmax(fabs(d.x), fabs(d.y)));
+        }
+        if (far <= sight)
+            triangles[kept++] = triangles[i];
+    }
+    *count = kept;
+}

@@ -79,7 +79,7 @@ mean_shift(
 }
 
 bool
-otx_continuation_match(
+otx_continuation_place(
     const otx_supply *supply, const otx_mask *mask, const otx_vec2 *points,
     int32_t count, otx_match *out)
 {
@@ -101,6 +101,16 @@ otx_continuation_match(
             return false;
     }
     *out = (otx_match){angle, shift, 0.0};
+    return true;
+}
+
+bool
+otx_continuation_match(
+    const otx_supply *supply, const otx_mask *mask, const otx_vec2 *points,
+    int32_t count, otx_match *out)
+{
+    if (!otx_continuation_place(supply, mask, points, count, out))
+        return false;
     out->error = otx_matcher_score(supply->matcher, mask, out);
     return isfinite(out->error);
 }

@@ -7,6 +7,7 @@
 #include "method/hierarchical/hierarchical.h"
 
 #include "base/random.h"
+#include "match/mask.h"
 
 enum
 {
@@ -66,7 +67,7 @@ widest_mask(const otx_exemplar *e, double size)
 static otx_status
 make_mask(
     const otx_mapper *m, const otx_node *node, otx_arena *scratch,
-    otx_mask *out)
+    otx_mask_triangle **out, int32_t *out_count)
 {
     const otx_chart *chart = &node->chart;
     const otx_level *leaf = m->leaves.level;
@@ -112,7 +113,8 @@ make_mask(
                 add_triangle(chart, &t, first, at, band, triangles + count);
         }
     }
-    *out = (otx_mask){triangles, count};
+    *out = triangles;
+    *out_count = count;
     return OSDTEX_OK;
 }
 
@@ -387,25 +389,67 @@ is_users_first(const otx_mapper *m, const otx_node *node)
     return false;
 }
 
+/* Whether a patch's surroundings are wider than a search takes them: beside
+ * faces of many pictures, as of a plain mesh and a small picture that tiles. */
+static bool
+is_vast(const otx_mapper *m, const otx_node *node, const otx_mask *mask)
+{
+    const otx_mask_frame frame = {.rotation = {1.0, 0.0}, .pixel = {1.0, 1.0}};
+    otx_mask_box box;
+
+    if (mask->triangle_count == 0)
+        return false;
+    box = otx_mask_bounds(mask, &frame);
+    return hypot(box.high.x - box.low.x, box.high.y - box.low.y) >
+           otx_matcher_reach(otx_supply_of(m, node)->matcher);
+}
+
+/* Leaves the search what it takes of them. Where that is nothing the patch
+ * itself repeats the picture, and had better go on as its neighbours do: found
+ * in *out, when the result is true. */
+static bool
+reduce_vast(
+    const otx_mapper *m, const trial *t, otx_mask_triangle *triangles,
+    otx_mask *mask, otx_match *out)
+{
+    const otx_node *node = &m->nodes[t->index];
+    const otx_supply *supply = otx_supply_of(m, node);
+    const bool found =
+        otx_continuation_place(supply, mask, t->points, t->point_count, out) &&
+        otx_follow_allows(m, node, out->angle);
+
+    otx_band_keep_near(
+        triangles, &mask->triangle_count, core_middle(&node->chart),
+        otx_matcher_reach(supply->matcher) / 3.0);
+    return found && mask->triangle_count == 0;
+}
+
 /* Looks at what is committed and changes nothing but the node's own chart. */
 static otx_status
 find_place(const otx_mapper *m, trial *t, otx_fit *fit)
 {
     const otx_node *node = &m->nodes[t->index];
     const bool bend = m->settings.relax == OTX_HIERARCHICAL_RELAX_LOOP;
+    otx_mask_triangle *triangles;
     otx_match best[16];
     otx_mask mask;
     int32_t count = 0;
+    bool goes_on;
 
     t->points = core_points(&node->chart, t->scratch, &t->point_count);
     if (!t->points)
         return OSDTEX_ERROR_MEMORY;
-    OTX_TRY(make_mask(m, node, t->scratch, &mask));
+    OTX_TRY(make_mask(m, node, t->scratch, &triangles, &mask.triangle_count));
+    mask.triangles = triangles;
+    goes_on = is_vast(m, node, &mask) &&
+              reduce_vast(m, t, triangles, &mask, &best[0]);
     fit->searched = mask.triangle_count > 0 && !is_users_first(m, node);
     if (is_users_first(m, node))
         count = place_first(m, node, t->points, t->point_count, &best[0]);
     else if (fit->searched)
         OTX_TRY(search(m, t, &mask, best, &count));
+    else if (goes_on)
+        count = 1;
     else
         count = place_freely(m, t->index, t->points, t->point_count, &best[0]);
     if (m->settings.continuation && mask.triangle_count > 0)

@@ -263,12 +263,21 @@ void otx_unfold(otx_mapper *m);
 int32_t otx_band_clip(
     const otx_mask_triangle *triangle, const double reach[3], double limit,
     otx_mask_triangle out[2]);
+/* Leaves out of a mask the triangles that are not within `sight` of `middle`
+ * along both axes; the others keep their order. */
+void otx_band_keep_near(
+    otx_mask_triangle *triangles, int32_t *count, otx_vec2 middle,
+    double sight);
 
 /* continuation.c: the rotation by which the mask's charts of the same exemplar
  * lie in it now, weighted by area: the orientation that continues them. */
 double otx_continuation_angle(const otx_mask *mask);
-/* The whole placement, with its error. False when there is nothing to continue,
- * or one of the points would leave an exemplar that does not tile. */
+/* The whole placement, error 0. False when there is nothing to continue, or one
+ * of the points would leave an exemplar that does not tile. */
+bool otx_continuation_place(
+    const otx_supply *supply, const otx_mask *mask, const otx_vec2 *points,
+    int32_t count, otx_match *out);
+/* The same with its error; false, too, where the mask covers no texel. */
 bool otx_continuation_match(
     const otx_supply *supply, const otx_mask *mask, const otx_vec2 *points,
     int32_t count, otx_match *out);

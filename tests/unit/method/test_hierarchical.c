@@ -175,6 +175,32 @@ a_plane_that_may_continue_has_no_seam(void **state)
     }
 }
 
+/* Plain meshes beside small pictures: what lies around a face is more than a
+ * search takes. */
+static void
+faces_of_many_pictures_go_on(void **state)
+{
+    static const char *const modes[] = {"best", "paper"};
+
+    (void)state;
+    for (int k = 0; k < 2; ++k)
+    {
+        job *flat = make_job("plane", 0, 16.0 * 36.0, true);
+        job *round = make_job("jack", 0, 30.0 * 36.0, true);
+
+        set(flat, "mode", modes[k]);
+        set(round, "mode", modes[k]);
+        if (map(flat) != OSDTEX_OK || map(round) != OSDTEX_OK)
+            fail_msg(
+                "%s%s", test_last_message(flat->run),
+                test_last_message(round->run));
+        assert_true(measure(flat).seam_length < 1e-9);
+        check_mapping(round);
+        test_run_destroy(flat->run);
+        test_run_destroy(round->run);
+    }
+}
+
 static void
 the_same_bytes_from_any_number_of_threads(void **state)
 {
@@ -507,6 +533,7 @@ main(void)
         cmocka_unit_test(every_cage_is_covered_without_flips),
         cmocka_unit_test(nothing_leaves_an_exemplar_that_does_not_tile),
         cmocka_unit_test(a_plane_that_may_continue_has_no_seam),
+        cmocka_unit_test(faces_of_many_pictures_go_on),
         cmocka_unit_test(the_same_bytes_from_any_number_of_threads),
         cmocka_unit_test(seeds_differ),
         cmocka_unit_test(the_first_patch_is_where_the_user_wants_it),
