@@ -243,12 +243,31 @@ check_tiles(otx_run *run, const otx_atlas *atlas)
             "the blocks fill %d tiles, more than UDIM can number; raise the "
             "resolution or lower the texels per unit",
             atlas->tile_count);
-    otx_note(
-        run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
-        "an atlas of %d tile(s), %.4g texels per scene unit, margins of %d "
-        "texels",
-        atlas->tile_count, atlas->density, atlas->margin);
     return OSDTEX_OK;
+}
+
+/* Without a density only blocks of the least size fill more than one tile. */
+static void
+tell(
+    otx_run *run, const otx_cage *cage, const otx_atlas_options *options,
+    const otx_atlas *atlas)
+{
+    if (atlas->density > 0.0)
+        otx_note(
+            run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
+            "an atlas of %d tile%s, %.4g texels per scene unit, margins of %d "
+            "texels",
+            atlas->tile_count, atlas->tile_count == 1 ? "" : "s",
+            atlas->density, atlas->margin);
+    else
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, STAGE, OTX_NOWHERE,
+            "%d faces fill %d tiles of %d x %d texels with the smallest blocks "
+            "that there are, of %d texels a side and as many between them; "
+            "raise the resolution, or unwrap the cage and bake onto its own "
+            "UVs",
+            cage->face_count, atlas->tile_count, options->side, options->side,
+            2 * atlas->margin);
 }
 
 otx_status
@@ -280,5 +299,7 @@ otx_atlas_pack(
     settle(&p, options, out);
     set_uvs(cage, &p, out);
     otx_arena_release(run->scratch, mark);
-    return check_tiles(run, out);
+    OTX_TRY(check_tiles(run, out));
+    tell(run, cage, options, out);
+    return OSDTEX_OK;
 }

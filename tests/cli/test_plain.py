@@ -151,7 +151,7 @@ class Plain(ProgramTest):
 
     def test_a_cage_must_be_a_manifold(self):
         result = self.run_map(self.messy(), EXEMPLAR, "--scheme", "bilinear")
-        self.assert_error(result, 2, "4 faces (0, 1, 2, …) share the edge")
+        self.assert_error(result, 2, "face 5 has the same corners as face 0")
 
     def test_the_level_is_0(self):
         self.assert_exit(self.plain(TORUS, "--level", "0"), 0)

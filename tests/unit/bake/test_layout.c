@@ -90,6 +90,25 @@ a_density_opens_tiles(void **state)
     test_run_destroy(run);
 }
 
+/* 128 texels hold 64 blocks of the least size; no density is found. */
+static void
+more_faces_than_a_tile_holds_are_told(void **state)
+{
+    static const otx_atlas_options options = {128, 0, 0.0};
+    otx_run *run = test_run_create();
+    const otx_cage cage = cage_of(run, "models/cages/creature.obj");
+    const otx_surface surface = mesh_refine(run, &cage, 1);
+    otx_atlas atlas;
+
+    (void)state;
+    assert_int_equal(
+        otx_atlas_pack(run, &surface, &options, &atlas), OSDTEX_OK);
+    assert_int_equal(atlas.tile_count, (278 + 63) / 64);
+    assert_non_null(
+        strstr(test_last_message(run), "278 faces fill 5 tiles of 128 x 128"));
+    test_run_destroy(run);
+}
+
 /* OpenSubdiv, given the atlas and its rule, has the same coordinates. */
 static void
 the_rule_is_opensubdivs(void **state)
@@ -208,6 +227,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blocks_are_apart),
         cmocka_unit_test(a_density_opens_tiles),
+        cmocka_unit_test(more_faces_than_a_tile_holds_are_told),
         cmocka_unit_test(the_rule_is_opensubdivs),
         cmocka_unit_test(own_uvs_are_on_their_tiles),
         cmocka_unit_test(charts_are_what_hangs_together),
