@@ -117,7 +117,8 @@ static const otx_command commands[] = {
      "osdtex map shirt.obj weave.exr -o out/shirt.obj --scale 12 --level 3 \\\n"
      "    --json-report out/shirt.json\n"
      "osdtex map scan.obj bark.png -o out/scan.obj --scheme none\n",
-     map_flags, otx_map_command_run},
+     "DIR/NAME.obj; NAME.mtl and NAME.exr are written beside it", map_flags,
+     otx_map_command_run},
     {"tiles", "EXEMPLAR", 1, 1, "make a tiled texture from a picture",
      "Makes square tiles that meet exactly on any quad mesh, at edges, "
      "vertices and\nmip levels: osdtex map CAGE.obj TILES.exr --method tile. "
@@ -126,7 +127,7 @@ static const otx_command commands[] = {
      "osdtex tiles models/exemplars/gravel_tile.png -o gravel_tiles.exr\n"
      "osdtex tiles wood.exr -o wood_tiles.exr --oriented --for shirt.obj "
      "--tile-level 2\n",
-     tiles_flags, otx_tiles_command_run},
+     "an .exr", tiles_flags, otx_tiles_command_run},
     {"bake", "CAGE.obj EXEMPLAR", 2, 2,
      "texture a cage and bake the result onto its UVs",
      "Textures the cage as `osdtex map` does, but keeps it as it is: writes\n"
@@ -138,6 +139,7 @@ static const otx_command commands[] = {
      "\\\n    -o pebbles.obj --resolution 2048\n"
      "osdtex bake shirt.obj weave.exr -o out/shirt.obj --uvs atlas \\\n"
      "    --texels-per-unit 40 --preview-png\n",
+     "DIR/NAME.obj: what is written is called after NAME, and beside it",
      bake_flags, otx_bake_command_run},
     {"render", "MODEL.obj", 1, 1, "take a picture of a textured model",
      "Ray-traces an OBJ with the textures that its MTL names. PNG is for the "
@@ -150,7 +152,7 @@ static const otx_command commands[] = {
      "osdtex render pebbles.obj -o patches.png --show patches --unlit\n"
      "osdtex render wood.obj -o field.png --show field --constraints "
      "field.csv\n",
-     render_flags, otx_render_command_run},
+     "a .png or .exr", render_flags, otx_render_command_run},
     {"field", "CAGE.obj", 1, 1, "show or write a direction field on a cage",
      "Solves for the field of directions that textures follow: the smoothest, "
      "or what\nconstraints and --follow ask for. A picture shows its lines, "
@@ -160,7 +162,8 @@ static const otx_command commands[] = {
      "osdtex field models/cages/creature.obj -o field.png --follow up\n"
      "osdtex field shirt.obj -o field.csv --constraints pull.json --symmetry "
      "4\n",
-     field_flags, otx_field_command_run},
+     "a .png or .exr for a picture, a .csv for the directions", field_flags,
+     otx_field_command_run},
     {"regress", "DIR [CASE...]", 1, OTX_FLAG_OPERANDS_MAX,
      "run a table of cases and compare them with their references",
      "Runs the cases of DIR/table.json and holds them against DIR/reference: "
@@ -170,31 +173,33 @@ static const otx_command commands[] = {
      "no reference.",
      "osdtex regress tests/regress/suite -o /var/tmp/nightly\n"
      "osdtex regress tests/regress/suite -o /var/tmp/nightly --update all\n",
-     regress_flags, otx_regress_command_run},
+     "a folder, which is made where it is not there", regress_flags,
+     otx_regress_command_run},
     {"plan", "JOB.json", 1, 1, "write a job for a farm",
      "A job is a list of tasks, each an `osdtex map` or `osdtex bake`. Writes "
      "it as make,\nSlurm, OpenCue or Deadline take it, and prints how to hand "
      "it over.",
      "osdtex plan shirts.json --engine slurm -o farm/\n"
      "osdtex plan shirts.json -o farm/ && make -k -j 8 -f farm/Makefile\n",
-     plan_flags, otx_plan_command_run},
+     "a folder, which is made where it is not there", plan_flags,
+     otx_plan_command_run},
     {"run", "JOB.json", 1, 1, "run a task of a job",
      "Runs one task, unless its outputs were made by this version from the "
      "same inputs\nand options. Paths in the job are relative to its folder.",
-     "osdtex run shirts.json --task 3\n", run_flags, otx_run_command_run},
+     "osdtex run shirts.json --task 3\n", NULL, run_flags, otx_run_command_run},
     {"info", "FILE", 1, 1, "say what a cage or a picture is",
      "Of an OBJ: faces, tags, components, boundary, size. Of a picture: size, "
      "type,\ncolour space as it would be resolved, whether it tiles.",
      "osdtex info models/cages/creature.obj\n"
      "osdtex info models/exemplars/pebbles_tile.png\n",
-     info_flags, otx_info_command_run},
+     NULL, info_flags, otx_info_command_run},
     {"methods", "[NAME]", 0, 1, "list the methods, or the settings of one",
      "Settings are given to `osdtex map` with --set KEY=VALUE.",
      "osdtex methods\n"
      "osdtex methods hierarchical\n",
-     methods_flags, otx_methods_command_run},
+     NULL, methods_flags, otx_methods_command_run},
     {"help", "[COMMAND]", 0, 1, "print help on a command", "",
-     "osdtex help map\n", help_flags, otx_help_command_run},
+     "osdtex help map\n", NULL, help_flags, otx_help_command_run},
 };
 
 const otx_command *
@@ -211,6 +216,12 @@ otx_command_name(int index)
     const otx_command *command = otx_command_at(index);
 
     return command ? command->name : NULL;
+}
+
+const char *
+otx_command_flag_help(const otx_command *command, otx_flag_id flag)
+{
+    return flag == OTX_FLAG_OUTPUT ? command->output : otx_flag_at(flag)->help;
 }
 
 const otx_command *

@@ -27,6 +27,7 @@ typedef struct otx_command
     const char *summary;      /* one line */
     const char *description;  /* paragraphs, wrapped at 78 columns */
     const char *examples;     /* lines */
+    const char *output;       /* help on --output; NULL where there is none */
     const otx_flag_id *flags; /* ends with OTX_FLAG_COUNT */
     int (*run)(const otx_flag_values *values);
 } otx_command;
@@ -35,6 +36,9 @@ typedef struct otx_command
 const otx_command *otx_command_at(int index);
 const otx_command *otx_command_find(const char *name);
 const char *otx_command_name(int index);
+
+/* Help on one of its flags. */
+const char *otx_command_flag_help(const otx_command *command, otx_flag_id flag);
 
 int otx_map_command_run(const otx_flag_values *values);
 int otx_tiles_command_run(const otx_flag_values *values);

@@ -8,12 +8,7 @@
 
 static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_OUTPUT] =
-        {"output", 'o', OTX_FLAG_GROUP_MAIN, "FILE",
-         "what to write; map: DIR/NAME.obj, with NAME.mtl and NAME.exr beside "
-         "it; render: a .png or .exr; field: those or a .csv; tiles: an .exr; "
-         "bake: the name of the "
-         "other files, DIR/NAME.obj; regress and plan: a "
-         "folder"},
+        {"output", 'o', OTX_FLAG_GROUP_MAIN, "FILE", "what to write"},
     [OTX_FLAG_METHOD] =
         {"method", 0, OTX_FLAG_GROUP_MAIN, "NAME",
          "how to texture; `osdtex methods` lists them, auto chooses by the "

@@ -6,36 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Whether a file opens like one of the pictures that are read. */
-static bool
-looks_like_picture(const char *path)
-{
-    static const struct
-    {
-        const char *bytes;
-        size_t count;
-    } magics[] = {
-        {"\x76\x2f\x31\x01", 4},
-        {"\x89PNG", 4},
-        {"II*\0", 4},
-        {"MM\0*", 4},
-        {"II+\0", 4},
-        {"MM\0+", 4},
-        {"\xff\xd8\xff", 3},
-    };
-    unsigned char head[4] = {0};
-    FILE *file = fopen(path, "rb");
-    bool found = false;
-
-    if (!file)
-        return false;
-    if (fread(head, 1, sizeof head, file) == sizeof head)
-        for (size_t i = 0; i < sizeof magics / sizeof magics[0]; ++i)
-            found |= memcmp(head, magics[i].bytes, magics[i].count) == 0;
-    fclose(file);
-    return found;
-}
-
 static void
 print_cage(const osdtex_cage_info *c)
 {
@@ -166,7 +136,7 @@ otx_info_command_run(const otx_flag_values *values)
         return OTX_EXIT_USAGE;
     if (!otx_session_begin(&session, values))
         return session.exit_code;
-    status = looks_like_picture(path)
+    status = otx_inputs_is_picture(path) || otx_inputs_is_binary(path)
                  ? inspect_exemplar(session.context, path, &exemplar_options)
                  : inspect_cage(session.context, path, &cage_options);
     return otx_session_end(&session, status);

@@ -3,6 +3,14 @@
 #include "cli/session.h"
 #include "cli/value.h"
 
+#include <stdio.h>
+#include <string.h>
+
+enum
+{
+    PEEK_BYTES = 512
+};
+
 static const char *const schemes[] = {"catmark", "loop", "bilinear", "none"};
 static const char *const boundaries[] = {"none", "edgeOnly", "edgeAndCorner"};
 static const char *const fvars[] = {
@@ -70,4 +78,52 @@ otx_inputs_exemplar(const otx_flag_values *values, osdtex_exemplar_options *out)
     return choose(values, OTX_FLAG_MATCH_IN, embeddings, 4, &out->embedding) &&
            choose(values, OTX_FLAG_WRAP, wraps, 3, &out->wrap) &&
            choose(values, OTX_FLAG_TILEABLE, tileables, 3, &out->tileable);
+}
+
+static size_t
+peek(const char *path, unsigned char bytes[PEEK_BYTES])
+{
+    FILE *file = fopen(path, "rb");
+    size_t count;
+
+    if (!file)
+        return 0;
+    count = fread(bytes, 1, PEEK_BYTES, file);
+    fclose(file);
+    return count;
+}
+
+bool
+otx_inputs_is_picture(const char *path)
+{
+    static const struct
+    {
+        const char *bytes;
+        size_t count;
+    } magics[] = {
+        {"\x76\x2f\x31\x01", 4},
+        {"\x89PNG", 4},
+        {"II*\0", 4},
+        {"MM\0*", 4},
+        {"II+\0", 4},
+        {"MM\0+", 4},
+        {"\xff\xd8\xff", 3},
+    };
+    unsigned char head[PEEK_BYTES];
+    const size_t count = peek(path, head);
+
+    for (size_t i = 0; i < sizeof magics / sizeof magics[0]; ++i)
+        if (count >= magics[i].count &&
+            memcmp(head, magics[i].bytes, magics[i].count) == 0)
+            return true;
+    return false;
+}
+
+bool
+otx_inputs_is_binary(const char *path)
+{
+    unsigned char head[PEEK_BYTES];
+
+    return !otx_value_has_extension(path, ".obj") &&
+           memchr(head, 0, peek(path, head)) != NULL;
 }

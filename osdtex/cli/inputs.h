@@ -9,6 +9,12 @@ bool otx_inputs_cage(const otx_flag_values *values, osdtex_cage_options *out);
 bool otx_inputs_exemplar(
     const otx_flag_values *values, osdtex_exemplar_options *out);
 
+/* Whether a file begins like one of the pictures that are read. */
+bool otx_inputs_is_picture(const char *path);
+/* Whether it is no text and is not called .obj: perhaps a picture of another
+ * kind. */
+bool otx_inputs_is_binary(const char *path);
+
 const char *otx_inputs_scheme_name(osdtex_scheme scheme);
 const char *otx_inputs_boundary_name(osdtex_boundary boundary);
 const char *otx_inputs_fvar_name(osdtex_fvar fvar);

@@ -25,7 +25,7 @@ put_roff(const char *text)
 }
 
 static void
-put_flag(const otx_flag *flag)
+put_flag(const otx_flag *flag, const char *help)
 {
     printf(".TP\n");
     if (flag->letter)
@@ -40,7 +40,7 @@ put_flag(const otx_flag *flag)
         printf("\\fR");
     }
     putchar('\n');
-    put_roff(flag->help);
+    put_roff(help);
     putchar('\n');
 }
 
@@ -66,17 +66,15 @@ put_settings(int method, const osdtex_method_info *info)
         put_roff(option.fallback);
         printf(")\n");
         put_roff(option.help);
-        putchar('\n');
         for (int c = 0; option.choices && option.choices[c]; ++c)
         {
-            fputs(c == 0 ? "One of " : ", ", stdout);
+            fputs(c == 0 ? ". One of " : ", ", stdout);
             put_roff(option.choices[c]);
         }
-        if (option.choices)
-            printf(".\n");
         if (option.kind == OSDTEX_OPTION_REAL ||
             option.kind == OSDTEX_OPTION_INTEGER)
-            printf("From %g to %g.\n", option.minimum, option.maximum);
+            printf(". From %g to %g", option.minimum, option.maximum);
+        printf(".\n");
     }
 }
 
@@ -95,7 +93,7 @@ put_command(const otx_command *command)
         const otx_flag_group group = otx_flag_at(*id)->group;
 
         if (group != OTX_FLAG_GROUP_COMMON && group != OTX_FLAG_GROUP_HIDDEN)
-            put_flag(otx_flag_at(*id));
+            put_flag(otx_flag_at(*id), otx_command_flag_help(command, *id));
     }
 }
 
@@ -141,15 +139,21 @@ otx_usage_print_man(void)
     {
         printf(".B osdtex %s\n.I ", otx_command_at(i)->name);
         put_roff(otx_command_at(i)->operands);
-        printf("\n.RI [ options ]\n.br\n");
+        printf(
+            "\n%s.RI [ options ]\n.br\n",
+            otx_command_at(i)->output ? ".BI \\-o \" FILE\"\n" : "");
     }
     printf(".SH COMMANDS\n");
     for (int i = 0; otx_command_at(i); ++i)
         put_command(otx_command_at(i));
     printf(".SH COMMON OPTIONS\n");
     for (int id = 0; id < OTX_FLAG_COUNT; ++id)
-        if (otx_flag_at((otx_flag_id)id)->group == OTX_FLAG_GROUP_COMMON)
-            put_flag(otx_flag_at((otx_flag_id)id));
+    {
+        const otx_flag *flag = otx_flag_at((otx_flag_id)id);
+
+        if (flag->group == OTX_FLAG_GROUP_COMMON)
+            put_flag(flag, flag->help);
+    }
     printf(".SH METHODS\n");
     for (int m = 0; osdtex_method_get(m, &method) == OSDTEX_OK; ++m)
         put_settings(m, &method);

@@ -283,6 +283,21 @@ parse_first_patch(job *j)
     return true;
 }
 
+/* Cage and exemplar are easily taken for each other. */
+static bool
+cage_comes_first(const job *j)
+{
+    const char *cage = j->values->operands[0];
+
+    if (!otx_inputs_is_picture(cage))
+        return true;
+    otx_session_refuse(
+        "'%s' is a picture, where the cage, an OBJ, is expected: osdtex %s "
+        "CAGE.obj EXEMPLAR",
+        cage, j->maps ? "map" : "bake");
+    return false;
+}
+
 static bool
 parse(job *j, const otx_flag_values *values, bool bake_only)
 {
@@ -309,7 +324,7 @@ parse(job *j, const otx_flag_values *values, bool bake_only)
             "--preview writes a .png or .exr, not '%s'", j->preview);
         return false;
     }
-    return outputs_are_apart(j);
+    return cage_comes_first(j) && outputs_are_apart(j);
 }
 
 static bool

@@ -37,8 +37,9 @@ print_wrapped(const char *text, int column)
 }
 
 static void
-print_flag(const otx_flag *flag)
+print_flag(const otx_command *command, otx_flag_id id)
 {
+    const otx_flag *flag = otx_flag_at(id);
     int column = flag->letter
                      ? printf("    -%c, --%s", flag->letter, flag->name)
                      : printf("    --%s", flag->name);
@@ -49,7 +50,7 @@ print_flag(const otx_flag *flag)
         printf("%*s", HELP_COLUMN - column, "");
     else
         printf("\n%*s", HELP_COLUMN, "");
-    print_wrapped(flag->help, HELP_COLUMN);
+    print_wrapped(otx_command_flag_help(command, id), HELP_COLUMN);
 }
 
 static void
@@ -64,7 +65,7 @@ print_group(const otx_command *command, otx_flag_group group)
         if (!begun)
             printf("\n%s:\n", otx_flag_group_title(group));
         begun = true;
-        print_flag(otx_flag_at(*id));
+        print_flag(command, *id);
     }
 }
 
@@ -112,6 +113,7 @@ otx_usage_print(void)
             otx_command_at(i)->summary);
     printf("\n`osdtex COMMAND --help` says what a command takes.\n\n"
            "Exit codes: 0 done, 1 usage, 2 bad input data, 3 input or output\n"
-           "failed, 4 colour configuration, 5 a limit or an internal error;\n"
-           "130 and 143 when stopped by a signal.\n");
+           "failed, 4 colour configuration, 5 a limit or an internal error,\n"
+           "6 a case of `osdtex regress` differs; 130 and 143 when stopped by "
+           "a\nsignal.\n");
 }

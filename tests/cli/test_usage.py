@@ -7,7 +7,8 @@ from program import CAGES, EXEMPLARS, ProgramTest, main
 
 CAGE = CAGES / "sphere.obj"
 EXEMPLAR = EXEMPLARS / "gravel_tile.png"
-COMMANDS = ("map", "render", "field", "info", "methods", "help")
+COMMANDS = ("map", "tiles", "bake", "render", "field", "regress", "plan",
+            "run", "info", "methods", "help")
 
 
 class Help(ProgramTest):
@@ -88,6 +89,9 @@ class Mistakes(ProgramTest):
     def test_operands(self):
         self.refused("takes CAGE.obj EXEMPLAR", "map", CAGE)
         self.refused("takes CAGE.obj EXEMPLAR", "map", CAGE, CAGE, CAGE)
+        self.refused(
+            "is a picture, where the cage, an OBJ, is expected",
+            "map", EXEMPLAR, CAGE, "-o", self.folder / "x.obj")
         self.refused("one file too many", "info", *["x"] * 9)
         self.refused("-o DIR/NAME.obj", "map", CAGE, EXEMPLAR)
         self.refused("-o NAME.png", "render", CAGE)
@@ -205,6 +209,14 @@ class Info(ProgramTest):
         self.assert_exit(result, 0)
         self.assertIn("256 x 256", result.stdout)
         self.assertIn("tiles       both ways", result.stdout)
+
+    def test_other_pictures_are_no_cages(self):
+        for name, head in (("a.tga", b"\0\0\2"), ("a.dds", b"DDS |\0\0\0")):
+            path = self.folder / name
+            path.write_bytes(head + b"\0" * 100)
+            self.assert_error(
+                self.run_program("info", path), 2,
+                "is not an EXR, PNG, TIFF or JPEG picture; convert it")
 
 
 if __name__ == "__main__":
