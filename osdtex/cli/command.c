@@ -122,11 +122,11 @@ static const otx_command commands[] = {
     {"tiles", "EXEMPLAR", 1, 1, "make a tiled texture from a picture",
      "Makes square tiles that meet exactly on any quad mesh, at edges, "
      "vertices and\nmip levels: osdtex map CAGE.obj TILES.exr --method tile. "
-     "The UVs do not depend on\nthe picture, so that other tiles of the same "
+     "The UVs do not depend\non the picture, so that other tiles of the same "
      "layout fit the same OBJ.",
      "osdtex tiles models/exemplars/gravel_tile.png -o gravel_tiles.exr\n"
-     "osdtex tiles wood.exr -o wood_tiles.exr --oriented --for shirt.obj "
-     "--tile-level 2\n",
+     "osdtex tiles wood.exr -o wood_tiles.exr --oriented --for shirt.obj \\\n"
+     "    --tile-level 2\n",
      "an .exr", tiles_flags, otx_tiles_command_run},
     {"bake", "CAGE.obj EXEMPLAR", 2, 2,
      "texture a cage and bake the result onto its UVs",
@@ -168,8 +168,8 @@ static const otx_command commands[] = {
      "run a table of cases and compare them with their references",
      "Runs the cases of DIR/table.json and holds them against DIR/reference: "
      "files by\ncontent, a rendered picture within 0.004, figures within "
-     "stated tolerances. Writes\nreport.html, results.json and results.csv "
-     "into the output folder. Exit status 6:\na case differs, crashed, or has "
+     "stated tolerances.\nWrites report.html, results.json and results.csv "
+     "into the output folder. Exit\nstatus 6: a case differs, crashed, or has "
      "no reference.",
      "osdtex regress tests/regress/suite -o /var/tmp/nightly\n"
      "osdtex regress tests/regress/suite -o /var/tmp/nightly --update all\n",
@@ -177,7 +177,7 @@ static const otx_command commands[] = {
      otx_regress_command_run},
     {"plan", "JOB.json", 1, 1, "write a job for a farm",
      "A job is a list of tasks, each an `osdtex map` or `osdtex bake`. Writes "
-     "it as make,\nSlurm, OpenCue or Deadline take it, and prints how to hand "
+     "it as\nmake, Slurm, OpenCue or Deadline take it, and prints how to hand "
      "it over.",
      "osdtex plan shirts.json --engine slurm -o farm/\n"
      "osdtex plan shirts.json -o farm/ && make -k -j 8 -f farm/Makefile\n",
@@ -185,7 +185,7 @@ static const otx_command commands[] = {
      otx_plan_command_run},
     {"run", "JOB.json", 1, 1, "run a task of a job",
      "Runs one task, unless its outputs were made by this version from the "
-     "same inputs\nand options. Paths in the job are relative to its folder.",
+     "same\ninputs and options. Paths in the job are relative to its folder.",
      "osdtex run shirts.json --task 3\n", NULL, run_flags, otx_run_command_run},
     {"info", "FILE", 1, 1, "say what a cage or a picture is",
      "Of an OBJ: faces, tags, components, boundary, size. Of a picture: size, "
