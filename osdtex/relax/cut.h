@@ -40,6 +40,11 @@ typedef struct otx_cut_options
                         * costs distortion * A * cost */
     double length;     /* cost of any seam per texel, in units of the
                         * exemplar's sigma: breaks ties */
+    /* Between two exemplars: cost of cutting through features per texel, in
+     * units of each one's sigma, and where these are (outline.h), [exemplars];
+     * NULL nowhere. */
+    double through;
+    const otx_image *outlines;
 } otx_cut_options;
 
 static inline otx_cut_options
@@ -52,6 +57,8 @@ otx_cut_options_default(void)
         .band = 1.0,
         .distortion = 0.01,
         .length = 1e-3,
+        .through = 1.5,
+        .outlines = NULL,
     };
 }
 

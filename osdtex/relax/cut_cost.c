@@ -58,6 +58,30 @@ exemplar_of(const otx_cut_cost *cost, otx_cut_view view)
     return &cost->exemplars[cost->offers[view.label].exemplar];
 }
 
+/* How much one side cuts through features, per texel. */
+static double
+through(const otx_cut_cost *cost, const flank *side, int32_t count)
+{
+    const otx_exemplar *e = side->exemplar;
+    const otx_image *outline = &cost->options->outlines[e - cost->exemplars];
+    const double wide = (double)outline->width / e->match.width;
+    const double high = (double)outline->height / e->match.height;
+    double sum = 0.0;
+
+    for (int32_t i = 0; i < count; ++i)
+    {
+        const otx_vec2 p =
+            otx_vec2_lerp(side->ends[0], side->ends[1], (i + 0.5) / count);
+        float depth;
+
+        otx_image_sample(
+            outline, e->wrap_x, e->wrap_y, (otx_vec2){p.x * wide, p.y * high},
+            &depth);
+        sum += (double)depth;
+    }
+    return cost->options->through * e->match_sigma * sum / count;
+}
+
 /* UVs that a view gives to the ends of an edge of `face`. */
 static void
 side_of(
@@ -143,10 +167,12 @@ otx_cut_cost_edge(
         cost->options->density * otx_seam_edge_length(cost->surface, edge);
     const int32_t wanted = otx_seam_sample_count(length);
     const int32_t count = wanted < SAMPLES_MAX ? wanted : SAMPLES_MAX;
+    double per_texel = band_difference(cost, sides, count) + cost->edge_length;
 
-    return whole(
-        cost,
-        length * (band_difference(cost, sides, count) + cost->edge_length));
+    if (cost->options->outlines && sides[0].exemplar != sides[1].exemplar)
+        per_texel +=
+            through(cost, &sides[0], count) + through(cost, &sides[1], count);
+    return whole(cost, length * per_texel);
 }
 
 bool

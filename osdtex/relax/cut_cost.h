@@ -5,7 +5,8 @@
  *
  * V is 0 for equal labels and where two charts of one exemplar are continuous;
  * otherwise
- * length * (mean colour difference + a constant). Length and samples depend on
+ * length * (mean colour difference + a constant), and between exemplars also
+ * what each side cuts through. Length and samples depend on
  * the edge alone, so that V is a metric over labels, which is what expansion
  * moves ask for. Rounding to whole numbers makes cuts exact and sums
  * independent of their order. */

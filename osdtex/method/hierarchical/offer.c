@@ -1,6 +1,8 @@
 /* offer.c -- what each patch can show: its whole chart, collar included. */
 #include "method/hierarchical/hierarchical.h"
 
+#include "relax/outline.h"
+
 #include <stdlib.h>
 
 /* Collar faces that are squeezed or stretched more than this are not offered:
@@ -149,16 +151,37 @@ take_offers(otx_mapper *m)
         }
 }
 
+/* Where the pictures of several exemplars can be cut; NULL of one. */
+static otx_status
+find_outlines(const otx_mapper *m, const otx_image **out)
+{
+    otx_image *outlines;
+
+    *out = NULL;
+    if (!m->request->demand)
+        return OSDTEX_OK;
+    outlines = OTX_NEW(m->run->scratch, otx_image, m->supply_count);
+    if (!outlines)
+        return otx_fail_memory(m->run, "cut");
+    for (int32_t k = 0; k < m->supply_count; ++k)
+        OTX_TRY(otx_outline_find(m->run, &m->exemplars[k], &outlines[k]));
+    *out = outlines;
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_offers_cut(otx_mapper *m, otx_cut_stats *stats)
 {
+    const otx_arena_mark mark = otx_arena_here(m->run->scratch);
     otx_cut_options options = otx_cut_options_default();
 
     options.density = m->texels;
     options.sweeps = m->settings.sweeps;
+    OTX_TRY(find_outlines(m, &options.outlines));
     OTX_TRY(otx_cut_run(
         m->run, m->surface, m->exemplars, m->offers, m->patch_count, &options,
         m->face_patch, stats));
+    otx_arena_release(m->run->scratch, mark);
     take_offers(m);
     return OSDTEX_OK;
 }

@@ -164,6 +164,53 @@ a_path_between_two_exemplars_is_cut_exactly(void **state)
     test_run_destroy(run);
 }
 
+/* Two exemplars that show the same everywhere: where it can be cut is what
+ * tells. */
+static void
+a_border_goes_round_features(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_surface *surface = test_grid_create(run->arena, NX, NY, 1.0);
+    const otx_exemplar *exemplar =
+        test_exemplar_create(run->arena, 128, NY * DENSITY, false, 3);
+    const otx_exemplar pair[2] = {*exemplar, *exemplar};
+    otx_offer offers[2] = {
+        offer_rectangle(
+            run->arena, surface, NX, (int32_t[]){0, 0, 13, NY}, 0.0,
+            (otx_vec2){0.0, 0.0}),
+        offer_rectangle(
+            run->arena, surface, NX, (int32_t[]){3, 0, NX, NY}, 0.0,
+            (otx_vec2){0.0, 0.0})};
+    otx_image outlines[2];
+    otx_cut_options options = unit_options();
+    int32_t labels[NX * NY];
+    otx_cut_stats stats;
+
+    (void)state;
+    offers[1].exemplar = 1;
+    for (int k = 0; k < 2; ++k)
+    {
+        assert_int_equal(
+            otx_image_create(
+                run, run->arena, 128, NY * DENSITY, 1, &outlines[k]),
+            OSDTEX_OK);
+        for (int32_t y = 0; y < NY * DENSITY; ++y)
+            for (int32_t x = 0; x < 128; ++x)
+                *otx_image_at(&outlines[k], x, y) =
+                    k == 1 && !near_path(x + 0.5, y + 0.5);
+    }
+    options.outlines = outlines;
+    for (int32_t f = 0; f < NX * NY; ++f)
+        labels[f] = f % NX < 5 ? 0 : 1;
+    assert_int_equal(
+        otx_cut_run(run, surface, pair, offers, 2, &options, labels, &stats),
+        OSDTEX_OK);
+    for (int32_t f = 0; f < NX * NY; ++f)
+        assert_int_equal(labels[f], f % NX < planted(f / NX) ? 0 : 1);
+    assert_int_equal(stats.rejected, 0);
+    test_run_destroy(run);
+}
+
 static void
 equal_offers_have_no_seams(void **state)
 {
@@ -444,6 +491,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_planted_path_is_cut_exactly),
         cmocka_unit_test(a_path_between_two_exemplars_is_cut_exactly),
+        cmocka_unit_test(a_border_goes_round_features),
         cmocka_unit_test(equal_offers_have_no_seams),
         cmocka_unit_test(two_labels_are_solved_exactly),
         cmocka_unit_test(energy_falls_and_labels_stay_within_their_offers),
