@@ -51,7 +51,8 @@ typedef struct otx_hierarchical_settings
     int32_t candidates;
     double band;
     double collar;
-    double tau; /* 0 auto */
+    double edges; /* -1 auto */
+    double tau;   /* 0 auto */
     double usage;
     int32_t cut;
     int32_t sweeps;
@@ -65,7 +66,7 @@ typedef struct otx_hierarchical_settings
 extern const otx_option otx_hierarchical_options[];
 enum
 {
-    OTX_HIERARCHICAL_OPTION_COUNT = 22
+    OTX_HIERARCHICAL_OPTION_COUNT = 23
 };
 
 /* Replaces every "auto" by what it means for this mode and exemplar. */
@@ -122,6 +123,7 @@ typedef struct otx_mapper
     otx_dual duals[OTX_LEVEL_MAX + 1]; /* of levels, where made */
     otx_supply supplies[OTX_EXEMPLARS_MAX];
     int32_t supply_count;
+    double edge_unit; /* by which edges are weighed in the match; 0 not */
     otx_chart_space *spaces; /* [threads] */
 
     otx_node *nodes;

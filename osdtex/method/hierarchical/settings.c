@@ -58,6 +58,9 @@ const otx_option otx_hierarchical_options[] = {
     {"collar", OTX_OPTION_REAL, FIELD(collar), 0, 2, 0.5, NULL,
      "Width around a patch that it may take over in the cut, as a share of "
      "its size"},
+    {"edges", OTX_OPTION_REAL, FIELD(edges), -1, 4, -1, NULL,
+     "Weight of edges beside colour where matches are looked up, so that "
+     "structure continues as well; -1 follows mode (best 0.7, paper 0)"},
     {"tau", OTX_OPTION_REAL, FIELD(tau), 0, 100, 0, NULL,
      "Fitting error above which a patch is split, in units of two random "
      "texels' difference; 0 chooses by the exemplar's contrast"},
@@ -171,6 +174,8 @@ otx_hierarchical_resolve(
         s->drift = paper ? 180.0 : 25.0;
     if (s->angles == 0)
         s->angles = s->drift < 90.0 ? 9 : 19;
+    if (s->edges < 0.0)
+        s->edges = paper ? 0.0 : 0.7;
     if (s->usage < 0.0)
         s->usage = paper ? 0.0 : 0.5;
     /* The cut takes over the ends of a bent patch, relaxation evens it out: of

@@ -4,6 +4,7 @@
  * for, and is fitted to what its neighbours show of theirs. */
 #include "method/hierarchical/hierarchical.h"
 
+#include "image/edges.h"
 #include "relax/reach.h"
 
 /* The area that asks for each, of the leaves that are no holes. */
@@ -17,18 +18,50 @@ sum_areas(otx_mapper *m)
             m->supplies[otx_supply_wanted(m, f)].area += m->leaves.areas[f];
 }
 
+/* The picture that matches are looked up in: colours, and edges, if they are
+ * to count. Of several exemplars they are measured by those of the first.
+ * In run->scratch.
+ *
+ *   sigma  out: RMS distance of two random texels */
+static otx_status
+match_picture(otx_mapper *m, int32_t k, otx_image *out, double *sigma)
+{
+    const otx_exemplar *e = m->supplies[k].exemplar;
+    const double weight = m->settings.edges;
+    otx_edges edges;
+
+    *out = e->match;
+    *sigma = e->match_sigma;
+    if (weight <= 0.0)
+        return OSDTEX_OK;
+    OTX_TRY(otx_edges_find(
+        m->run, m->run->scratch, &e->match, e->wrap_x, e->wrap_y, &edges));
+    if (k == 0)
+        m->edge_unit =
+            edges.sigma > 0.0 ? weight * e->match_sigma / edges.sigma : 0.0;
+    *sigma = hypot(e->match_sigma, m->edge_unit * edges.sigma);
+    return otx_edges_append(
+        m->run, m->run->scratch, &e->match, &edges, m->edge_unit, out);
+}
+
 static otx_status
 prepare(otx_mapper *m, int32_t k)
 {
     otx_supply *s = &m->supplies[k];
     const otx_exemplar *e = s->exemplar;
+    const otx_arena_mark mark = otx_arena_here(m->run->scratch);
+    otx_image match;
+    double sigma;
 
     s->usage = OTX_ZNEW(m->run->arena, float, OTX_USAGE_CELLS *OTX_USAGE_CELLS);
     if (!s->usage)
         return otx_fail_memory(m->run, "map");
-    return otx_matcher_create_like(
-        m->run, &e->match, e->wrap_x, e->wrap_y, e->match_sigma,
-        s->settings.coarse, k > 0 ? m->supplies[0].matcher : NULL, &s->matcher);
+    OTX_TRY(match_picture(m, k, &match, &sigma));
+    OTX_TRY(otx_matcher_create_like(
+        m->run, &match, e->wrap_x, e->wrap_y, sigma, s->settings.coarse,
+        k > 0 ? m->supplies[0].matcher : NULL, &s->matcher));
+    otx_arena_release(m->run->scratch, mark);
+    return OSDTEX_OK;
 }
 
 /* Half the width of the band in which seams between exemplars run. */
