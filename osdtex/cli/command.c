@@ -1,5 +1,7 @@
 /* command.c -- the table of sub-commands. */
 #include "cli/command.h"
+#include "cli/session.h"
+#include "cli/suggest.h"
 
 #include <string.h>
 
@@ -211,14 +213,6 @@ otx_command_at(int index)
 }
 
 const char *
-otx_command_name(int index)
-{
-    const otx_command *command = otx_command_at(index);
-
-    return command ? command->name : NULL;
-}
-
-const char *
 otx_command_flag_help(const otx_command *command, otx_flag_id flag)
 {
     return flag == OTX_FLAG_OUTPUT ? command->output : otx_flag_at(flag)->help;
@@ -231,4 +225,23 @@ otx_command_find(const char *name)
         if (strcmp(otx_command_at(i)->name, name) == 0)
             return otx_command_at(i);
     return NULL;
+}
+
+static const char *
+name_of(const void *list, int index)
+{
+    (void)list;
+    return otx_command_at(index) ? otx_command_at(index)->name : NULL;
+}
+
+int
+otx_command_refuse(const char *name)
+{
+    const char *near_name = otx_suggest_name(name, name_of, NULL);
+
+    if (near_name)
+        return otx_session_refuse(
+            "there is no command '%s'; did you mean '%s'?", name, near_name);
+    return otx_session_refuse(
+        "there is no command '%s'; see osdtex --help", name);
 }

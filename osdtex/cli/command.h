@@ -35,7 +35,9 @@ typedef struct otx_command
 /* NULL behind the end. */
 const otx_command *otx_command_at(int index);
 const otx_command *otx_command_find(const char *name);
-const char *otx_command_name(int index);
+
+/* Says that there is none of this name; OTX_EXIT_USAGE. */
+int otx_command_refuse(const char *name);
 
 /* Help on one of its flags. */
 const char *otx_command_flag_help(const otx_command *command, otx_flag_id flag);

@@ -4,6 +4,7 @@
 #include "cli/value.h"
 #include "farm/engine.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,6 +28,17 @@ make_folder(const char *path)
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
 }
 
+/* Without the slashes that it ends with. */
+static int
+folder_length(const char *path)
+{
+    int length = (int)strlen(path);
+
+    while (length > 1 && path[length - 1] == '/')
+        --length;
+    return length;
+}
+
 /* Where this program is: what the farm runs unless --program says else. */
 static const char *
 program_path(const otx_flag_values *values, char own[OTX_JOB_PATH_BYTES])
@@ -39,6 +51,25 @@ program_path(const otx_flag_values *values, char own[OTX_JOB_PATH_BYTES])
         return given ? given : "osdtex";
     own[length] = '\0';
     return own;
+}
+
+/* The job, or an exit code. */
+static int
+read_job(const otx_flag_values *values, otx_job *out)
+{
+    const char *path = values->operands[0];
+    char error[OTX_JOB_ERROR_BYTES];
+
+    if (access(path, R_OK) != 0)
+    {
+        otx_session_refuse(
+            "%s: the file cannot be read: %s", path, strerror(errno));
+        return OTX_EXIT_IO;
+    }
+    if (otx_job_read(path, out, error))
+        return OTX_EXIT_OK;
+    otx_session_refuse("%s", error);
+    return OTX_EXIT_DATA;
 }
 
 static int
@@ -67,7 +98,7 @@ plan(
             putchar(*c);
             continue;
         }
-        fputs(output, stdout);
+        printf("%.*s", folder_length(output), output);
         ++c;
     }
     putchar('\n');
@@ -79,7 +110,6 @@ otx_plan_command_run(const otx_flag_values *values)
 {
     const char *name = values->text[OTX_FLAG_ENGINE];
     const otx_engine *engine = otx_engine_find(name ? name : "make");
-    char error[OTX_JOB_ERROR_BYTES];
     otx_job job;
     int code;
 
@@ -91,11 +121,9 @@ otx_plan_command_run(const otx_flag_values *values)
         return otx_session_refuse(
             "the engine's files go to a folder: osdtex plan %s -o FOLDER",
             values->operands[0]);
-    if (!otx_job_read(values->operands[0], &job, error))
-    {
-        otx_session_refuse("%s", error);
-        return OTX_EXIT_DATA;
-    }
+    code = read_job(values, &job);
+    if (code != OTX_EXIT_OK)
+        return code;
     code = plan(values, engine, &job);
     otx_job_free(&job);
     return code;
@@ -144,10 +172,14 @@ run_task(const otx_flag_values *values, const otx_job *job)
     int64_t task;
     int code;
 
-    if (!text || !otx_value_int(text, 0, job->task_count - 1, &task))
+    if (!text)
+        return otx_session_refuse(
+            "say which task to run: --task, a number from 0 to %d",
+            job->task_count - 1);
+    if (!otx_value_int(text, 0, job->task_count - 1, &task))
         return otx_session_refuse(
             "--task takes a number from 0 to %d, not '%s'", job->task_count - 1,
-            text ? text : "");
+            text);
     if (chdir(job->folder) != 0)
     {
         otx_session_refuse("the folder '%s' cannot be entered", job->folder);
@@ -162,15 +194,11 @@ run_task(const otx_flag_values *values, const otx_job *job)
 int
 otx_run_command_run(const otx_flag_values *values)
 {
-    char error[OTX_JOB_ERROR_BYTES];
     otx_job job;
-    int code;
+    int code = read_job(values, &job);
 
-    if (!otx_job_read(values->operands[0], &job, error))
-    {
-        otx_session_refuse("%s", error);
-        return OTX_EXIT_DATA;
-    }
+    if (code != OTX_EXIT_OK)
+        return code;
     code = run_task(values, &job);
     otx_job_free(&job);
     return code;

@@ -273,12 +273,6 @@ otx_flag_at(otx_flag_id id)
 }
 
 const char *
-otx_flag_name(int index)
-{
-    return index < OTX_FLAG_COUNT ? flags[index].name : NULL;
-}
-
-const char *
 otx_flag_group_title(otx_flag_group group)
 {
     static const char *const titles[] = {
@@ -326,8 +320,25 @@ make_table(const otx_flag_id *ids)
     return table;
 }
 
+static const char *
+name_of(const void *ids, int index)
+{
+    const otx_flag_id id = ((const otx_flag_id *)ids)[index];
+
+    return id == OTX_FLAG_COUNT ? NULL : flags[id].name;
+}
+
 static bool
-complain(const char *word)
+is_flag(const char *name)
+{
+    for (int i = 0; i < OTX_FLAG_COUNT; ++i)
+        if (strcmp(flags[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+static bool
+complain(const char *word, const otx_flag_id *ids)
 {
     char name[64];
     const char *near_name;
@@ -340,12 +351,14 @@ complain(const char *word)
         return false;
     }
     snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
-    near_name = otx_suggest_name(name, otx_flag_name);
+    near_name = otx_suggest_name(name, name_of, ids);
     if (near_name && strcmp(near_name, name) == 0)
+        fprintf(stderr, "osdtex: error: '--%s' takes no value\n", name);
+    else if (is_flag(name))
         fprintf(
             stderr,
-            "osdtex: error: '--%s' cannot stand here or takes no value; see "
-            "--help\n",
+            "osdtex: error: '--%s' cannot stand here: it is for other "
+            "commands; see --help\n",
             name);
     else if (near_name)
         fprintf(
@@ -448,9 +461,9 @@ otx_flag_parse(
         if (c == -1)
             return take_operands(argc, argv, out);
         if (c == '?' && optopt > 0 && optopt < ID_BASE)
-            return complain((const char[]){'-', (char)optopt, '\0'});
+            return complain((const char[]){'-', (char)optopt, '\0'}, ids);
         if (c == '?')
-            return complain(argv[optind > 1 ? optind - 1 : at]);
+            return complain(argv[optind > 1 ? optind - 1 : at], ids);
         if (c == ':')
         {
             fprintf(

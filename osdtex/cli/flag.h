@@ -134,7 +134,4 @@ const char *otx_flag_group_title(otx_flag_group group);
 bool otx_flag_parse(
     int argc, char **argv, const otx_flag_id *ids, otx_flag_values *out);
 
-/* The same flags by name, for suggestions; NULL behind the end. */
-const char *otx_flag_name(int index);
-
 #endif

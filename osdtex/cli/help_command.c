@@ -17,8 +17,7 @@ otx_help_command_run(const otx_flag_values *values)
     {
         command = otx_command_find(values->operands[0]);
         if (!command)
-            return otx_session_refuse(
-                "there is no command '%s'", values->operands[0]);
+            return otx_command_refuse(values->operands[0]);
         otx_usage_print_command(command);
     }
     return OTX_EXIT_OK;

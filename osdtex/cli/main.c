@@ -1,22 +1,9 @@
 /* main.c -- finds the sub-command and runs it. */
 #include "cli/session.h"
-#include "cli/suggest.h"
 #include "cli/usage.h"
 
 #include <stdio.h>
 #include <string.h>
-
-static int
-no_such_command(const char *name)
-{
-    const char *near_name = otx_suggest_name(name, otx_command_name);
-
-    if (near_name)
-        return otx_session_refuse(
-            "there is no command '%s'; did you mean '%s'?", name, near_name);
-    return otx_session_refuse(
-        "there is no command '%s'; see osdtex --help", name);
-}
 
 static int
 run(const otx_command *command, int argc, char **argv)
@@ -76,6 +63,6 @@ main(int argc, char **argv)
     }
     command = otx_command_find(argv[1]);
     if (!command)
-        return no_such_command(argv[1]);
+        return otx_command_refuse(argv[1]);
     return flush(run(command, argc - 1, argv + 1));
 }

@@ -6,10 +6,11 @@
 #include <string.h>
 
 static const char *
-method_name(int index)
+method_name(const void *list, int index)
 {
     osdtex_method_info info;
 
+    (void)list;
     return osdtex_method_get(index, &info) == OSDTEX_OK ? info.name : NULL;
 }
 
@@ -62,7 +63,7 @@ otx_methods_command_run(const otx_flag_values *values)
     }
     if (!wanted)
         return OTX_EXIT_OK;
-    near_name = otx_suggest_name(wanted, method_name);
+    near_name = otx_suggest_name(wanted, method_name, NULL);
     if (near_name)
         return otx_session_refuse(
             "there is no method '%s'; did you mean '%s'?", wanted, near_name);

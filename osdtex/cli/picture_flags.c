@@ -59,7 +59,8 @@ parse_size(const otx_flag_values *values, osdtex_render_options *out)
             return true;
         }
     }
-    otx_session_refuse("--size takes WIDTHxHEIGHT in pixels, not '%s'", text);
+    otx_session_refuse(
+        "--size takes WIDTHxHEIGHT, 1 to 32768 pixels each, not '%s'", text);
     return false;
 }
 

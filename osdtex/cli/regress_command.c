@@ -2,6 +2,7 @@
 #include "cli/session.h"
 #include "regress/regress.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -78,6 +79,13 @@ otx_regress_command_run(const otx_flag_values *values)
         return otx_session_refuse(
             "results go to a folder: osdtex regress %s -o FOLDER",
             values->operands[0]);
+    if (access(values->operands[0], R_OK) != 0)
+    {
+        otx_session_refuse(
+            "%s: the folder cannot be read: %s", values->operands[0],
+            strerror(errno));
+        return OTX_EXIT_IO;
+    }
     mkdir(output, 0777);
     if (stat(output, &status) != 0 || !S_ISDIR(status.st_mode))
     {

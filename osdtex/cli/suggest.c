@@ -42,22 +42,25 @@ distance(const char *a, const char *b)
 }
 
 const char *
-otx_suggest_name(const char *word, const char *(*get)(int index))
+otx_suggest_name(
+    const char *word, const char *(*get)(const void *list, int index),
+    const void *list)
 {
     const size_t length = strlen(word);
     /* Two slips in a word of three letters, one more for each four. */
     int best_distance = (length > 2 ? 3 : 2) + (int)length / 4;
     const char *best = NULL;
 
-    for (int i = 0; get(i); ++i)
+    for (int i = 0; get(list, i); ++i)
     {
-        const int d = distance(word, get(i));
-        const int begins = length >= 2 && strncmp(get(i), word, length) == 0;
+        const char *name = get(list, i);
+        const int d = distance(word, name);
+        const int begins = length >= 2 && strncmp(name, word, length) == 0;
 
         if (begins || d < best_distance)
         {
             best_distance = begins ? 1 : d;
-            best = get(i);
+            best = name;
         }
     }
     return best;

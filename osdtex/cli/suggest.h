@@ -5,6 +5,8 @@
 /* The name nearest to `word`, or NULL when none is near.
  *
  *   get  name `index` of the list, NULL behind its end */
-const char *otx_suggest_name(const char *word, const char *(*get)(int index));
+const char *otx_suggest_name(
+    const char *word, const char *(*get)(const void *list, int index),
+    const void *list);
 
 #endif

@@ -115,7 +115,8 @@ check(otx_job *job, char *error)
     job->name = json_string_value(json_object_get(job->root, "name"));
     if (!is_plain(job->name))
         return refuse(
-            error, "the job's \"name\" is letters, digits, '.', '_' and '-'");
+            error,
+            "the job needs a \"name\" of letters, digits, '.', '_' and '-'");
     if (!json_is_array(tasks) || json_array_size(tasks) == 0 ||
         json_array_size(tasks) > OTX_JOB_TASKS_MAX)
         return refuse(

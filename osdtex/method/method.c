@@ -1,6 +1,8 @@
 /* method.c -- the table of methods and the driver. */
 #include "method/method.h"
 
+#include "mapping/seam.h"
+
 #include <string.h>
 #include <time.h>
 
@@ -58,6 +60,29 @@ otx_map_stats_stage(otx_map_stats *stats, const char *name)
     }
 }
 
+/* Pictures along a leaf edge, at most: UVs are floats, and seams are looked at
+ * texel by texel. */
+static const double PICTURES_MAX = 1024.0;
+
+static otx_status
+check_edges(
+    otx_run *run, const otx_surface *surface, const otx_map_request *request)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+    double longest = 0.0;
+
+    for (int32_t e = 0; e < leaf->edge_count; ++e)
+        longest = fmax(longest, otx_seam_edge_length(surface, e));
+    if (longest <= PICTURES_MAX * request->scale)
+        return OSDTEX_OK;
+    return otx_fail(
+        run, OSDTEX_ERROR_LIMIT, "map",
+        (otx_where){surface->cage->path, 0, -1, -1},
+        "at a scale of %g an edge of the mesh is %.3g pictures long, over the "
+        "limit of %g; raise --scale or --level",
+        request->scale, longest / request->scale, PICTURES_MAX);
+}
+
 /* Requests that no method could answer. */
 static otx_status
 check(otx_run *run, const otx_surface *surface, const otx_map_request *request)
@@ -79,7 +104,7 @@ check(otx_run *run, const otx_surface *surface, const otx_map_request *request)
             run, OSDTEX_ERROR_TOPOLOGY, "map",
             (otx_where){surface->cage->path, 0, -1, -1},
             "the surface has no area; there is nothing to texture");
-    return OSDTEX_OK;
+    return check_edges(run, surface, request);
 }
 
 otx_status

@@ -237,6 +237,8 @@ read_table(otx_suite *suite, char *error)
 
     snprintf(path, sizeof path, "%s/table.json", suite->folder);
     suite->table = json_load_file(path, JSON_REJECT_DUPLICATES, &wrong);
+    if (!suite->table && wrong.line < 0)
+        return refuse(error, "%s", wrong.text);
     if (!suite->table)
         return refuse(error, "%.300s:%d: %s", path, wrong.line, wrong.text);
     rows = json_object_get(suite->table, "rows");

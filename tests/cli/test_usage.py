@@ -79,12 +79,15 @@ class Mistakes(ProgramTest):
         self.map_refused("did you mean '--scale'?", "--sclae", "3")
         self.map_refused("did you mean 'hierarchical'?", "--method", "hierarch")
         self.refused("no command 'xyzzy'", "xyzzy")
+        self.refused("did you mean 'tiles'?", "help", "tile")
+        self.map_refused("it is for other commands", "--for", CAGE)
+        self.map_refused("no option '--xyzzy'; see --help", "--xyzzy")
 
     def test_unknown_flags_and_missing_values(self):
         self.map_refused("no option '-z'", "-z")
         self.map_refused("'--level' needs a value", "--level")
         self.map_refused("cannot stand here", "--unlit")
-        self.map_refused("cannot stand here", "--quiet=3")
+        self.map_refused("'--quiet' takes no value", "--quiet=3")
 
     def test_operands(self):
         self.refused("takes CAGE.obj EXEMPLAR", "map", CAGE)
@@ -187,6 +190,10 @@ class Files(ProgramTest):
         result = self.run_map(
             CAGE, EXEMPLAR, "--level", "9", "--memory-limit", "100M")
         self.assert_error(result, 5, "")
+        self.assert_nothing_written()
+        result = self.run_map(
+            CAGE, EXEMPLAR, "--scale", "1e-30", "--level", "1")
+        self.assert_error(result, 5, "pictures long, over the limit of 1024")
         self.assert_nothing_written()
 
 

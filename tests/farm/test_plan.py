@@ -85,14 +85,15 @@ class Plan(JobTest):
         job = self.write_job("job", TASKS)
         self.assert_error(
             self.run_program("run", job, "--task", "2"), 1, "from 0 to 1")
-        self.assert_error(self.run_program("run", job), 1, "from 0 to 1")
+        self.assert_error(
+            self.run_program("run", job), 1, "say which task to run")
         self.assert_error(
             self.run_program("plan", job, "--engine", "tractor", "-o", "x"), 1,
             "there is no engine 'tractor'")
         self.assert_error(self.run_program("plan", job), 1, "-o FOLDER")
         self.assert_error(
-            self.run_program("run", job.parent / "no.json", "--task", "0"), 2,
-            "cannot be found")
+            self.run_program("run", job.parent / "no.json", "--task", "0"), 3,
+            "the file cannot be read")
         task = {"name": "a", "command": "map", "arguments": "a b"}
         for wrong, words in (
                 ({"tasks": []}, "no \"tasks\""), ({"name": "a b"}, "\"name\""),
