@@ -1,4 +1,6 @@
-/* direction.h -- the smoothest direction field, or the one that is asked for.
+/* direction.h -- the smoothest direction field, or the one that is asked for
+ * (direction_solve.c), made smoother (direction_smooth.c) and handed from level
+ * to level (direction.c).
  *
  * A direction of symmetry s (1 an arrow, 2 a line, 4 a cross) is kept as the
  * s-th power of a unit complex number, z = e^(i s theta), in the frame of its
@@ -80,6 +82,9 @@ otx_status otx_direction_from_vectors(
 
 /* The s-th power of a vector of a plane, its length kept. */
 otx_vec2 otx_direction_power(otx_vec2 vector, int32_t symmetry);
+
+/* `z` made unit; `otherwise` where that cannot be done. */
+otx_vec2 otx_direction_unit(otx_vec2 z, otx_vec2 otherwise);
 
 /* Angle of one representative, in (-pi / s, pi / s] of the face's frame. */
 static inline double
