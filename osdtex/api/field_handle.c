@@ -141,7 +141,7 @@ warn_of_exemplars(otx_run *run, const otx_constraint_set *set)
         if (set->items[i].exemplar > 0 || set->items[i].exemplar_name)
             otx_note(
                 run, OSDTEX_SEVERITY_WARNING, "field",
-                (otx_where){set->path, 0, -1, -1},
+                otx_where_file(set->path),
                 "constraint %d names an exemplar, which a field does not hold; "
                 "give the file to map",
                 (int)i + 1);

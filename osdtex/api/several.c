@@ -102,8 +102,7 @@ take_exemplar(
         return OSDTEX_OK;
     if (width > OTX_IMAGE_MAX_SIDE || height > OTX_IMAGE_MAX_SIDE)
         return otx_fail(
-            run, OSDTEX_ERROR_LIMIT, STAGE,
-            (otx_where){from->source_path, 0, -1, -1},
+            run, OSDTEX_ERROR_LIMIT, STAGE, otx_where_file(from->source_path),
             "its scale of %g makes the picture more than %d texels of the "
             "first exemplar's size wide or high",
             also->scale, OTX_IMAGE_MAX_SIDE);

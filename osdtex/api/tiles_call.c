@@ -94,8 +94,7 @@ choose_names(
             names[count++] = names[i];
     if (count == 0)
         return otx_fail(
-            run, OSDTEX_ERROR_TOPOLOGY, STAGE,
-            (otx_where){s->cage->path, 0, -1, -1},
+            run, OSDTEX_ERROR_TOPOLOGY, STAGE, otx_where_file(s->cage->path),
             "all faces of the mesh are holes; there is nothing to texture");
     out->names = names;
     out->name_count = count;

@@ -22,6 +22,13 @@ typedef struct otx_where
 
 #define OTX_NOWHERE ((otx_where){NULL, 0, -1, -1})
 
+/* A file as a whole. */
+static inline otx_where
+otx_where_file(const char *path)
+{
+    return (otx_where){path, 0, -1, -1};
+}
+
 /* Findings of a context, folded by (severity, stage, file, format string). */
 typedef struct otx_diagnostics otx_diagnostics;
 

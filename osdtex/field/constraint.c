@@ -85,7 +85,7 @@ otx_constraint_check_table(
     if (count == face_count && set->count == face_count)
         return OSDTEX_OK;
     return otx_fail(
-        run, OSDTEX_ERROR_ARGUMENT, "field", (otx_where){set->path, 0, -1, -1},
+        run, OSDTEX_ERROR_ARGUMENT, "field", otx_where_file(set->path),
         "the table has %d lines, but the mesh has %d faces, and each needs "
         "one; `osdtex field CAGE.obj --level N -o NAME.csv` with the level of "
         "the mesh writes them",
@@ -246,8 +246,7 @@ pin_all(pinning *p)
     }
     if (count > INT32_MAX)
         return otx_fail(
-            p->run, OSDTEX_ERROR_LIMIT, "field",
-            (otx_where){p->set->path, 0, -1, -1},
+            p->run, OSDTEX_ERROR_LIMIT, "field", otx_where_file(p->set->path),
             "the constraints hold too many faces; give fewer points or smaller "
             "radii");
     p->pins = OTX_NEW(p->run->arena, otx_direction_pin, count);
@@ -322,8 +321,7 @@ otx_constraint_pins(
     if (set->follow == OTX_FOLLOW_AXIS &&
         (!is_finite(set->axis) || !(otx_vec3_length(set->axis) > 0.0)))
         return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, "field",
-            (otx_where){set->path, 0, -1, -1},
+            run, OSDTEX_ERROR_ARGUMENT, "field", otx_where_file(set->path),
             "the axis to follow is zero or not finite");
     OTX_TRY(otx_constraint_hold(run, set, c, NULL, out));
     return attract(run, set, c, out);
@@ -369,7 +367,7 @@ lock_values(
     }
     if (capacity > INT32_MAX)
         return otx_fail(
-            run, OSDTEX_ERROR_LIMIT, "field", (otx_where){set->path, 0, -1, -1},
+            run, OSDTEX_ERROR_LIMIT, "field", otx_where_file(set->path),
             "the constraints hold too many vertices; give fewer points or "
             "smaller radii");
     *out = OTX_NEW(run->scratch, otx_scale_lock, capacity);

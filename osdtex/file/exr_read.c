@@ -35,15 +35,6 @@ typedef struct reader
     int32_t channels[4];
 } reader;
 
-static otx_where
-where_of(const char *path)
-{
-    otx_where where = OTX_NOWHERE;
-
-    where.file = path;
-    return where;
-}
-
 /* Without a handler the core prints. What it says may quote bytes of the file,
  * so only its fixed messages are passed on. */
 static void
@@ -63,22 +54,22 @@ reader_failed(const reader *r, exr_result_t code)
     {
     case EXR_ERR_OUT_OF_MEMORY:
         return otx_fail(
-            r->run, OSDTEX_ERROR_MEMORY, "picture", where_of(r->path),
+            r->run, OSDTEX_ERROR_MEMORY, "picture", otx_where_file(r->path),
             "the EXR asks for more memory than there is; it may be damaged: "
             "write it again");
     case EXR_ERR_FILE_ACCESS:
         return otx_fail(
-            r->run, OSDTEX_ERROR_IO, "picture", where_of(r->path),
+            r->run, OSDTEX_ERROR_IO, "picture", otx_where_file(r->path),
             "the EXR cannot be opened (%s)", reason);
     case EXR_ERR_FEATURE_NOT_IMPLEMENTED:
         return otx_fail(
-            r->run, OSDTEX_ERROR_SUPPORT, "picture", where_of(r->path),
+            r->run, OSDTEX_ERROR_SUPPORT, "picture", otx_where_file(r->path),
             "the EXR is of a kind that is not read (%s); convert it to ZIP "
             "compressed scanlines",
             reason);
     default:
         return otx_fail(
-            r->run, OSDTEX_ERROR_FORMAT, "picture", where_of(r->path),
+            r->run, OSDTEX_ERROR_FORMAT, "picture", otx_where_file(r->path),
             "the EXR is damaged or cut short (%s); write it again", reason);
     }
 }
@@ -224,11 +215,11 @@ no_color(const reader *r, int part_count)
         deep = deep && !part_is_flat(r, part);
     if (deep)
         return otx_fail(
-            r->run, OSDTEX_ERROR_SUPPORT, "picture", where_of(r->path),
+            r->run, OSDTEX_ERROR_SUPPORT, "picture", otx_where_file(r->path),
             "the EXR is deep; flatten it, for example with oiiotool --flatten");
     list_channels(r, part_count, names);
     return otx_fail(
-        r->run, OSDTEX_ERROR_SUPPORT, "picture", where_of(r->path),
+        r->run, OSDTEX_ERROR_SUPPORT, "picture", otx_where_file(r->path),
         "the EXR has no R, G, B, no Y alone and no layer with R, G, B, only "
         "%s; rename or select channels, for example with oiiotool --ch",
         names);
@@ -253,13 +244,13 @@ choose_part(reader *r)
     r->out->part = r->part;
     if (part_count > 1)
         otx_note(
-            r->run, OSDTEX_SEVERITY_INFO, "picture", where_of(r->path),
+            r->run, OSDTEX_SEVERITY_INFO, "picture", otx_where_file(r->path),
             "the EXR has %d parts; part %d is the first with colour and is "
             "used",
             part_count, r->part);
     if (r->out->layer)
         otx_note(
-            r->run, OSDTEX_SEVERITY_INFO, "picture", where_of(r->path),
+            r->run, OSDTEX_SEVERITY_INFO, "picture", otx_where_file(r->path),
             "the EXR has no plain R, G, B; layer \"%s\" is used",
             r->out->layer);
     return OSDTEX_OK;
@@ -284,7 +275,8 @@ check_channels(reader *r)
             continue;
         if (i < 3)
             return otx_fail(
-                r->run, OSDTEX_ERROR_SUPPORT, "picture", where_of(r->path),
+                r->run, OSDTEX_ERROR_SUPPORT, "picture",
+                otx_where_file(r->path),
                 "the EXR has subsampled colours; convert it to full "
                 "resolution R, G, B");
         r->channels[i] = NONE;
@@ -305,7 +297,7 @@ check_compression(reader *r)
     if (r->compression == EXR_COMPRESSION_DWAA ||
         r->compression == EXR_COMPRESSION_DWAB)
         return otx_fail(
-            r->run, OSDTEX_ERROR_SUPPORT, "picture", where_of(r->path),
+            r->run, OSDTEX_ERROR_SUPPORT, "picture", otx_where_file(r->path),
             "the EXR is compressed with %s, which is not read; convert it "
             "with: oiiotool IN.exr --compression zip -o OUT.exr",
             r->compression == EXR_COMPRESSION_DWAA ? "DWAA" : "DWAB");
@@ -402,18 +394,18 @@ check_windows(const reader *r)
         span_of(data.y_min, data.y_max)));
     if (visible.x_min > visible.x_max || visible.y_min > visible.y_max)
         return otx_fail(
-            r->run, OSDTEX_ERROR_FORMAT, "picture", where_of(r->path),
+            r->run, OSDTEX_ERROR_FORMAT, "picture", otx_where_file(r->path),
             "no pixel of the EXR lies in its display window; reset the display "
             "window");
     if (memcmp(&visible, &display, sizeof visible) != 0)
         otx_note(
-            r->run, OSDTEX_SEVERITY_WARNING, "picture", where_of(r->path),
+            r->run, OSDTEX_SEVERITY_WARNING, "picture", otx_where_file(r->path),
             "the EXR fills only a part of its display window; the picture is "
             "that part, (%d, %d) to (%d, %d)",
             visible.x_min, visible.y_min, visible.x_max, visible.y_max);
     else if (memcmp(&visible, &data, sizeof visible) != 0)
         otx_note(
-            r->run, OSDTEX_SEVERITY_INFO, "picture", where_of(r->path),
+            r->run, OSDTEX_SEVERITY_INFO, "picture", otx_where_file(r->path),
             "the EXR has pixels beyond its display window; they are left out");
     return OSDTEX_OK;
 }
@@ -540,7 +532,7 @@ read_chunk(reader *r, const exr_chunk_info_t *chunk, int32_t x, int32_t y)
         return reader_failed(r, EXR_ERR_CORRUPT_CHUNK);
     if (chunk->unpacked_size > MAX_BLOCK_BYTES)
         return otx_fail(
-            r->run, OSDTEX_ERROR_LIMIT, "picture", where_of(r->path),
+            r->run, OSDTEX_ERROR_LIMIT, "picture", otx_where_file(r->path),
             "the EXR has tiles or blocks of %llu bytes; write it with smaller "
             "tiles or fewer channels",
             (unsigned long long)chunk->unpacked_size);

@@ -42,15 +42,6 @@ typedef struct place
     int32_t x, y, width, height;
 } place;
 
-static otx_where
-where_of(const char *path)
-{
-    otx_where where = OTX_NOWHERE;
-
-    where.file = path;
-    return where;
-}
-
 /* Without a handler the core prints. */
 static void
 on_error(exr_const_context_t file, exr_result_t code, const char *message)
@@ -79,11 +70,11 @@ check(const otx_exr_writer *w, exr_result_t code)
         return otx_fail_memory(w->run, "picture");
     if (is_full(error))
         return otx_fail(
-            w->run, OSDTEX_ERROR_IO, "picture", where_of(w->path),
+            w->run, OSDTEX_ERROR_IO, "picture", otx_where_file(w->path),
             "the disk is full (%s); make room or choose another folder",
             strerror(error));
     return otx_fail(
-        w->run, OSDTEX_ERROR_IO, "picture", where_of(w->path),
+        w->run, OSDTEX_ERROR_IO, "picture", otx_where_file(w->path),
         "the EXR cannot be written (%s)", exr_get_default_error_message(code));
 }
 
@@ -213,7 +204,8 @@ write_attributes(otx_exr_writer *w, const otx_exr_options *options)
     for (int32_t i = 0; i < options->attribute_count; ++i)
         if (write_attribute(w, &options->attributes[i]) != EXR_ERR_SUCCESS)
             return otx_fail(
-                w->run, OSDTEX_ERROR_ARGUMENT, "picture", where_of(w->path),
+                w->run, OSDTEX_ERROR_ARGUMENT, "picture",
+                otx_where_file(w->path),
                 "attribute \"%s\" cannot be set in the EXR; is its name there "
                 "twice, empty or too long?",
                 options->attributes[i].name);
@@ -314,7 +306,7 @@ check_chunk(const otx_exr_writer *w, const otx_exr_chunk *chunk)
 {
     if (chunk->status == OSDTEX_ERROR_NUMERIC)
         return otx_fail(
-            w->run, OSDTEX_ERROR_NUMERIC, "picture", where_of(w->path),
+            w->run, OSDTEX_ERROR_NUMERIC, "picture", otx_where_file(w->path),
             "the picture to write holds a value that is not finite; please "
             "report how it was made");
     return chunk->status == OSDTEX_OK ? OSDTEX_OK
@@ -329,7 +321,7 @@ otx_exr_put_packed(
     if (w->level == w->level_count || level != w->level || x != w->x ||
         y != w->y)
         return otx_fail(
-            w->run, OSDTEX_ERROR_ARGUMENT, "picture", where_of(w->path),
+            w->run, OSDTEX_ERROR_ARGUMENT, "picture", otx_where_file(w->path),
             "chunk (%d, %d) of level %d is not the next one of the EXR", x, y,
             level);
     OTX_TRY(check_chunk(w, chunk));
@@ -367,7 +359,7 @@ check_size(otx_run *run, const char *path, otx_exr_size size)
         size.height > OTX_IMAGE_MAX_SIDE ||
         (size.channels != 3 && size.channels != 4))
         return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, "picture", where_of(path),
+            run, OSDTEX_ERROR_ARGUMENT, "picture", otx_where_file(path),
             "an EXR has 1 to %d pixels a side and 3 or 4 channels, not %d x "
             "%d and %d",
             OTX_IMAGE_MAX_SIDE, size.width, size.height, size.channels);
@@ -442,14 +434,14 @@ otx_exr_end(otx_exr_writer *w)
 
     if (w->level != w->level_count)
         return otx_fail(
-            w->run, OSDTEX_ERROR_ARGUMENT, "picture", where_of(w->path),
+            w->run, OSDTEX_ERROR_ARGUMENT, "picture", otx_where_file(w->path),
             "the EXR is ended before its last chunk, at level %d of %d",
             w->level, w->level_count);
     code = exr_finish(&w->file);
     w->file = NULL;
     if (w->clamped_count > 0)
         otx_note(
-            w->run, OSDTEX_SEVERITY_WARNING, "picture", where_of(w->path),
+            w->run, OSDTEX_SEVERITY_WARNING, "picture", otx_where_file(w->path),
             "%lld values beyond the half range were clamped to 65504",
             (long long)w->clamped_count);
     return check(w, code);
@@ -570,7 +562,7 @@ check_levels(
     }
     if (!ok)
         return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, "picture", where_of(path),
+            run, OSDTEX_ERROR_ARGUMENT, "picture", otx_where_file(path),
             "the mip levels given do not fit a picture of %d x %d",
             image->width, image->height);
     return OSDTEX_OK;

@@ -36,15 +36,6 @@ typedef struct reader
     char error[JMSG_LENGTH_MAX];
 } reader;
 
-static otx_where
-where_of(const char *path)
-{
-    otx_where where = OTX_NOWHERE;
-
-    where.file = path;
-    return where;
-}
-
 static void
 on_error(j_common_ptr jpeg)
 {
@@ -159,7 +150,7 @@ reader_open(otx_run *run, const char *path, reader *r)
     r->file = fopen(path, "rb");
     if (!r->file)
         return otx_fail(
-            run, OSDTEX_ERROR_IO, "picture", where_of(path),
+            run, OSDTEX_ERROR_IO, "picture", otx_where_file(path),
             "the picture cannot be opened (%s)", strerror(errno));
     r->jpeg.err = jpeg_std_error(&r->errors);
     r->jpeg.client_data = r;
@@ -174,7 +165,7 @@ static otx_status
 reader_failed(otx_run *run, const char *path, const reader *r)
 {
     return otx_fail(
-        run, OSDTEX_ERROR_FORMAT, "picture", where_of(path),
+        run, OSDTEX_ERROR_FORMAT, "picture", otx_where_file(path),
         "the JPEG is damaged or cut short (%s); export it again", r->error);
 }
 
@@ -191,7 +182,7 @@ otx_jpeg_file_read(otx_run *run, const char *path, otx_picture *out)
         return reader_failed(run, path, r);
     if (r->jpeg.num_components != 1 && r->jpeg.num_components != 3)
         return otx_fail(
-            run, OSDTEX_ERROR_SUPPORT, "picture", where_of(path),
+            run, OSDTEX_ERROR_SUPPORT, "picture", otx_where_file(path),
             "the JPEG has %d components (CMYK?); convert it to RGB",
             r->jpeg.num_components);
     OTX_TRY(otx_picture_create(

@@ -38,15 +38,6 @@ static const format formats[] = {
     {OTX_PICTURE_JPEG, {0xFF, 0xD8, 0xFF}, 3, otx_jpeg_file_read},
 };
 
-static otx_where
-where_of(const char *path)
-{
-    otx_where where = OTX_NOWHERE;
-
-    where.file = path;
-    return where;
-}
-
 /* The first bytes of the file; fewer where it is shorter. */
 static otx_status
 read_magic(otx_run *run, const char *path, uint8_t magic[MAGIC_BYTES])
@@ -56,7 +47,7 @@ read_magic(otx_run *run, const char *path, uint8_t magic[MAGIC_BYTES])
     memset(magic, 0, MAGIC_BYTES);
     if (!file)
         return otx_fail(
-            run, OSDTEX_ERROR_IO, "picture", where_of(path),
+            run, OSDTEX_ERROR_IO, "picture", otx_where_file(path),
             "the picture cannot be opened (%s)", strerror(errno));
     errno = 0;
     fread(magic, 1, MAGIC_BYTES, file);
@@ -67,7 +58,7 @@ read_magic(otx_run *run, const char *path, uint8_t magic[MAGIC_BYTES])
     fclose(file);
     if (failed)
         return otx_fail(
-            run, OSDTEX_ERROR_IO, "picture", where_of(path),
+            run, OSDTEX_ERROR_IO, "picture", otx_where_file(path),
             "the picture cannot be read (%s)", strerror(reason));
     return OSDTEX_OK;
 }
@@ -87,12 +78,12 @@ otx_picture_check_size(
 {
     if (width < 1 || height < 1)
         return otx_fail(
-            run, OSDTEX_ERROR_FORMAT, "picture", where_of(path),
+            run, OSDTEX_ERROR_FORMAT, "picture", otx_where_file(path),
             "the picture has no pixels; write it again");
     if (width > OTX_IMAGE_MAX_SIDE || height > OTX_IMAGE_MAX_SIDE ||
         width * height > OTX_PICTURE_MAX_PIXELS)
         return otx_fail(
-            run, OSDTEX_ERROR_LIMIT, "picture", where_of(path),
+            run, OSDTEX_ERROR_LIMIT, "picture", otx_where_file(path),
             "the picture claims %lld x %lld pixels, more than %d a side or %d "
             "million in all; crop it or reduce its size",
             (long long)width, (long long)height, OTX_IMAGE_MAX_SIDE,
@@ -124,7 +115,7 @@ check_finite(otx_run *run, const char *path, const otx_picture *picture)
         for (int32_t i = 0; i < image->width * image->channels; ++i)
             if (!isfinite(row[i]))
                 return otx_fail(
-                    run, OSDTEX_ERROR_NUMERIC, "picture", where_of(path),
+                    run, OSDTEX_ERROR_NUMERIC, "picture", otx_where_file(path),
                     "pixel (%d, %d), counted from the top-left corner, is %s "
                     "in channel %c; paint it out, or run oiiotool --fixnan "
                     "box3 on the file",
@@ -162,7 +153,7 @@ otx_picture_read(otx_run *run, const char *path, otx_picture *out)
 
     if (!f)
         return otx_fail(
-            run, OSDTEX_ERROR_FORMAT, "picture", where_of(path),
+            run, OSDTEX_ERROR_FORMAT, "picture", otx_where_file(path),
             "the file is not an EXR, PNG, TIFF or JPEG picture; convert it to "
             "one of these");
 

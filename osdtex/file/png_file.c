@@ -33,15 +33,6 @@ typedef struct reader
     char warning[MESSAGE_BYTES];
 } reader;
 
-static otx_where
-where_of(const char *path)
-{
-    otx_where where = OTX_NOWHERE;
-
-    where.file = path;
-    return where;
-}
-
 static void
 keep_message(char kept[MESSAGE_BYTES], const char *message)
 {
@@ -134,7 +125,7 @@ static otx_status
 reader_failed(const reader *r)
 {
     return otx_fail(
-        r->run, OSDTEX_ERROR_FORMAT, "picture", where_of(r->path),
+        r->run, OSDTEX_ERROR_FORMAT, "picture", otx_where_file(r->path),
         "the PNG is damaged or cut short (%s); export it again", r->error);
 }
 
@@ -144,7 +135,7 @@ reader_open(reader *r)
     r->file = fopen(r->path, "rb");
     if (!r->file)
         return otx_fail(
-            r->run, OSDTEX_ERROR_IO, "picture", where_of(r->path),
+            r->run, OSDTEX_ERROR_IO, "picture", otx_where_file(r->path),
             "the picture cannot be opened (%s)", strerror(errno));
     r->png = png_create_read_struct(
         PNG_LIBPNG_VER_STRING, r, reader_error, reader_warning);
@@ -218,7 +209,7 @@ otx_png_file_read(otx_run *run, const char *path, otx_picture *out)
     OTX_TRY(read_pixels(r));
     if (r->warning[0] != '\0')
         otx_note(
-            run, OSDTEX_SEVERITY_WARNING, "picture", where_of(path),
+            run, OSDTEX_SEVERITY_WARNING, "picture", otx_where_file(path),
             "libpng says of this file: %s", r->warning);
     return OSDTEX_OK;
 }
@@ -316,7 +307,7 @@ check_image(otx_run *run, const char *path, const otx_image *image)
     for (size_t i = 0; i < count; ++i)
         if (!isfinite(image->pixels[i]))
             return otx_fail(
-                run, OSDTEX_ERROR_NUMERIC, "picture", where_of(path),
+                run, OSDTEX_ERROR_NUMERIC, "picture", otx_where_file(path),
                 "the picture to write holds a value that is not finite; please "
                 "report how it was made");
     return OSDTEX_OK;
@@ -338,7 +329,7 @@ write_file(writer *w)
         return otx_fail_memory(w->run, "picture");
     if (!written || !closed)
         return otx_fail(
-            w->run, OSDTEX_ERROR_IO, "picture", where_of(w->path),
+            w->run, OSDTEX_ERROR_IO, "picture", otx_where_file(w->path),
             "the PNG cannot be written (%s)",
             w->error[0] != '\0' ? w->error : strerror(errno));
     return OSDTEX_OK;
@@ -356,7 +347,7 @@ write_temporary(writer *w, const char *temporary)
     w->file = fopen(temporary, "wb");
     if (!w->file)
         return otx_fail(
-            w->run, OSDTEX_ERROR_IO, "picture", where_of(w->path),
+            w->run, OSDTEX_ERROR_IO, "picture", otx_where_file(w->path),
             "the PNG cannot be written (%s)", strerror(errno));
     return write_file(w);
 }
@@ -372,7 +363,7 @@ otx_png_file_write(
     if ((bits != 8 && bits != 16) ||
         (image->channels != 3 && image->channels != 4))
         return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, "picture", where_of(path),
+            run, OSDTEX_ERROR_ARGUMENT, "picture", otx_where_file(path),
             "a PNG has 3 or 4 channels of 8 or 16 bits, not %d of %d",
             image->channels, bits);
     OTX_TRY(check_image(run, path, image));

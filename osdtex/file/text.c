@@ -34,19 +34,10 @@ is_line_end(char c)
     return c == '\n' || c == '\r';
 }
 
-static otx_where
-where_file(const char *name)
-{
-    otx_where where = OTX_NOWHERE;
-
-    where.file = name;
-    return where;
-}
-
 otx_where
 otx_text_where(const otx_text *text)
 {
-    otx_where where = where_file(text->name);
+    otx_where where = otx_where_file(text->name);
 
     where.line = text->line;
     return where;
@@ -77,7 +68,7 @@ static otx_status
 fail_errno(otx_run *run, const char *stage, const char *path, int error)
 {
     return otx_fail(
-        run, OSDTEX_ERROR_IO, stage, where_file(path),
+        run, OSDTEX_ERROR_IO, stage, otx_where_file(path),
         "the file cannot be read: %s", strerror(error));
 }
 
@@ -102,7 +93,7 @@ read_all(
         c->size += (size_t)got;
         if (c->size > limit)
             return otx_fail(
-                run, OSDTEX_ERROR_LIMIT, stage, where_file(path),
+                run, OSDTEX_ERROR_LIMIT, stage, otx_where_file(path),
                 "the file is larger than %zu MiB, the most that is read",
                 limit >> 20);
     }
@@ -123,7 +114,7 @@ read_open(
         return fail_errno(run, stage, path, EISDIR);
     if (!S_ISREG(info.st_mode) && !S_ISFIFO(info.st_mode))
         return otx_fail(
-            run, OSDTEX_ERROR_IO, stage, where_file(path),
+            run, OSDTEX_ERROR_IO, stage, otx_where_file(path),
             "this is neither a file nor a pipe");
     if (info.st_size > 0 && (size_t)info.st_size <= limit)
         c->capacity = (size_t)info.st_size + 1;
@@ -144,16 +135,17 @@ check_text(otx_text *text)
 
     if (size == 0)
         return otx_fail(
-            text->run, OSDTEX_ERROR_FORMAT, text->stage, where_file(text->name),
-            "the file is empty");
+            text->run, OSDTEX_ERROR_FORMAT, text->stage,
+            otx_where_file(text->name), "the file is empty");
     if (size >= 2 && (memcmp(text->bytes, little, 2) == 0 ||
                       memcmp(text->bytes, big, 2) == 0))
         return otx_fail(
-            text->run, OSDTEX_ERROR_FORMAT, text->stage, where_file(text->name),
-            "the text is UTF-16; save it as UTF-8");
+            text->run, OSDTEX_ERROR_FORMAT, text->stage,
+            otx_where_file(text->name), "the text is UTF-16; save it as UTF-8");
     if (memchr(text->bytes, '\0', size))
         return otx_fail(
-            text->run, OSDTEX_ERROR_FORMAT, text->stage, where_file(text->name),
+            text->run, OSDTEX_ERROR_FORMAT, text->stage,
+            otx_where_file(text->name),
             "the file holds zero bytes: it is binary, damaged, or UTF-16; "
             "save it as UTF-8 text");
     return OSDTEX_OK;

@@ -44,15 +44,6 @@ typedef struct block
     int32_t sample;              /* the plane's; IGNORED: samples interleaved */
 } block;
 
-static otx_where
-where_of(const char *path)
-{
-    otx_where where = OTX_NOWHERE;
-
-    where.file = path;
-    return where;
-}
-
 /* Non-zero: libtiff's global handler is not called as well. */
 static int
 on_error(
@@ -95,7 +86,7 @@ static otx_status
 reader_failed(const reader *r)
 {
     return otx_fail(
-        r->run, OSDTEX_ERROR_FORMAT, "picture", where_of(r->path),
+        r->run, OSDTEX_ERROR_FORMAT, "picture", otx_where_file(r->path),
         "the TIFF is damaged or cut short (%s); export it again",
         r->error[0] != '\0' ? r->error : "no reason given");
 }
@@ -136,7 +127,7 @@ find_alpha(reader *r, int32_t colors)
         }
     if (extra_count > 0)
         otx_note(
-            r->run, OSDTEX_SEVERITY_INFO, "picture", where_of(r->path),
+            r->run, OSDTEX_SEVERITY_INFO, "picture", otx_where_file(r->path),
             "the TIFF has %d extra channels that are not said to be alpha; "
             "they are ignored",
             extra_count);
@@ -179,7 +170,7 @@ note_orientation(const reader *r)
     TIFFGetFieldDefaulted(r->tiff, TIFFTAG_ORIENTATION, &orientation);
     if (orientation != ORIENTATION_TOPLEFT)
         otx_note(
-            r->run, OSDTEX_SEVERITY_WARNING, "picture", where_of(r->path),
+            r->run, OSDTEX_SEVERITY_WARNING, "picture", otx_where_file(r->path),
             "the TIFF asks viewers to turn or mirror it (orientation %d); the "
             "pixels are taken as stored",
             orientation);
@@ -275,7 +266,7 @@ alloc_block(const reader *r, uint64_t bytes, uint64_t needed, uint8_t **out)
         return reader_failed(r);
     if (bytes > MAX_BLOCK_BYTES)
         return otx_fail(
-            r->run, OSDTEX_ERROR_LIMIT, "picture", where_of(r->path),
+            r->run, OSDTEX_ERROR_LIMIT, "picture", otx_where_file(r->path),
             "the TIFF has strips or tiles of %llu bytes; write it with smaller "
             "ones",
             (unsigned long long)bytes);
@@ -427,7 +418,7 @@ check_support(const reader *r)
 
     if (!color && !is_gray(r))
         return otx_fail(
-            r->run, OSDTEX_ERROR_SUPPORT, "picture", where_of(r->path),
+            r->run, OSDTEX_ERROR_SUPPORT, "picture", otx_where_file(r->path),
             "the TIFF is neither grey nor RGB (photometric %d, as for CMYK, "
             "Lab or LogLuv); convert it to RGB",
             r->photometric);
@@ -435,7 +426,7 @@ check_support(const reader *r)
         r->sample_format != SAMPLEFORMAT_IEEEFP &&
         r->sample_format != SAMPLEFORMAT_VOID)
         return otx_fail(
-            r->run, OSDTEX_ERROR_SUPPORT, "picture", where_of(r->path),
+            r->run, OSDTEX_ERROR_SUPPORT, "picture", otx_where_file(r->path),
             "the TIFF holds signed or complex numbers; convert it to unsigned "
             "or float");
     return OSDTEX_OK;
@@ -452,7 +443,7 @@ read_any(reader *r)
         return read_rgba(r);
     if (!is_direct(r))
         return otx_fail(
-            r->run, OSDTEX_ERROR_SUPPORT, "picture", where_of(r->path),
+            r->run, OSDTEX_ERROR_SUPPORT, "picture", otx_where_file(r->path),
             "the TIFF has %d bits a channel; convert it to 8 or 16 bits or "
             "float",
             r->bits);

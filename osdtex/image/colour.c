@@ -14,15 +14,6 @@ name_at(const void *list, int32_t index)
     return otx_ocio_name(list, index);
 }
 
-static otx_where
-at_config(const otx_colour *colour)
-{
-    otx_where where = OTX_NOWHERE;
-
-    where.file = colour->path;
-    return where;
-}
-
 otx_status
 otx_colour_find(
     otx_run *run, const otx_colour *colour, const char *what, const char *name,
@@ -40,7 +31,7 @@ otx_colour_find(
             otx_ocio_space_name(colour->config, 0),
             otx_ocio_space_name(colour->config, 1));
     return otx_fail(
-        run, OSDTEX_ERROR_COLOUR, stage, at_config(colour),
+        run, OSDTEX_ERROR_COLOUR, stage, otx_where_file(colour->path),
         "%s: the colour configuration has no space '%s'%s", what, name, near);
 }
 
@@ -54,7 +45,7 @@ static otx_status
 fail_open(otx_run *run, const otx_colour *colour, const char *message)
 {
     return otx_fail(
-        run, OSDTEX_ERROR_COLOUR, stage, at_config(colour),
+        run, OSDTEX_ERROR_COLOUR, stage, otx_where_file(colour->path),
         "the colour configuration cannot be used: %s", message);
 }
 
@@ -96,7 +87,7 @@ otx_colour_open(
                     : "neither asked for nor in $OCIO");
     if (otx_ocio_validate(config, message) != OSDTEX_OK)
         otx_note(
-            run, OSDTEX_SEVERITY_WARNING, stage, at_config(out),
+            run, OSDTEX_SEVERITY_WARNING, stage, otx_where_file(out->path),
             "OpenColorIO finds a fault in the configuration: %s; spaces that "
             "need the faulty part will fail",
             message);
@@ -133,7 +124,7 @@ fail_convert(
     const char *message)
 {
     return otx_fail(
-        run, OSDTEX_ERROR_COLOUR, stage, at_config(colour),
+        run, OSDTEX_ERROR_COLOUR, stage, otx_where_file(colour->path),
         "cannot convert from '%s' to '%s': %s", from, to, message);
 }
 

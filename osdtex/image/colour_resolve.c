@@ -11,24 +11,6 @@
 
 static const char stage[] = "colour";
 
-static otx_where
-at_config(const otx_colour *colour)
-{
-    otx_where where = OTX_NOWHERE;
-
-    where.file = colour->path;
-    return where;
-}
-
-static otx_where
-at_source(const otx_colour_source *source)
-{
-    otx_where where = OTX_NOWHERE;
-
-    where.file = source->path;
-    return where;
-}
-
 /* A tag of the file; one that the configuration does not know is passed over
  * with a word. */
 static const char *
@@ -44,7 +26,7 @@ resolve_tag(
                                      : otx_colour_known_tagged(colour, tag);
     if (!space)
         otx_note(
-            run, OSDTEX_SEVERITY_WARNING, stage, at_source(source),
+            run, OSDTEX_SEVERITY_WARNING, stage, otx_where_file(source->path),
             "passing over %s '%s', which the configuration does not know",
             attribute, tag);
     return space;
@@ -61,7 +43,7 @@ resolve_chromaticities(
     space = otx_colour_known_by_chromaticities(colour, source->chromaticities);
     if (!space)
         otx_note(
-            run, OSDTEX_SEVERITY_WARNING, stage, at_source(source),
+            run, OSDTEX_SEVERITY_WARNING, stage, otx_where_file(source->path),
             "passing over the chromaticities, which no linear space of the "
             "configuration has; say --from to name the space");
     return space;
@@ -109,7 +91,7 @@ resolve_file_rule(
         is_named_in_path(colour, space, source->path))
         return space;
     otx_note(
-        run, OSDTEX_SEVERITY_INFO, stage, at_source(source),
+        run, OSDTEX_SEVERITY_INFO, stage, otx_where_file(source->path),
         "passing over the space '%s', whose name OpenColorIO sees in part of a "
         "word of the path",
         space);
@@ -122,7 +104,7 @@ say_source(
     const char *rule, const char *detail)
 {
     otx_note(
-        run, OSDTEX_SEVERITY_INFO, stage, at_source(source),
+        run, OSDTEX_SEVERITY_INFO, stage, otx_where_file(source->path),
         "input space: '%s' (%s%s)", space, rule, detail);
     return OSDTEX_OK;
 }
@@ -141,7 +123,7 @@ resolve_default(
                              : "integer pixels: sRGB",
             "");
     return otx_fail(
-        run, OSDTEX_ERROR_COLOUR, stage, at_source(source),
+        run, OSDTEX_ERROR_COLOUR, stage, otx_where_file(source->path),
         "the configuration has no %s, so the colours of this picture are "
         "unknown; say --from to name their space",
         source->is_float ? "role scene_linear" : "space for sRGB textures");
@@ -212,7 +194,7 @@ otx_colour_resolve_linear(
             run, colour, *space,
             "no role scene_linear: the first linear space that is known");
     return otx_fail(
-        run, OSDTEX_ERROR_COLOUR, stage, at_config(colour),
+        run, OSDTEX_ERROR_COLOUR, stage, otx_where_file(colour->path),
         "the configuration has neither a role scene_linear nor a linear space "
         "by a usual name; say --to to name one");
 }

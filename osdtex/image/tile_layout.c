@@ -374,7 +374,7 @@ otx_tile_layout_parse(
     if (good && fits(out, width, height))
         return OSDTEX_OK;
     return otx_fail(
-        run, OSDTEX_ERROR_FORMAT, STAGE, (otx_where){path, 0, -1, -1},
+        run, OSDTEX_ERROR_FORMAT, STAGE, otx_where_file(path),
         "the line that says how the picture is divided into tiles does not "
         "fit it; make the tiles again with osdtex tiles");
 }

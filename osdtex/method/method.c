@@ -102,7 +102,7 @@ check(otx_run *run, const otx_surface *surface, const otx_map_request *request)
     if (!(surface->area > 0.0))
         return otx_fail(
             run, OSDTEX_ERROR_TOPOLOGY, "map",
-            (otx_where){surface->cage->path, 0, -1, -1},
+            otx_where_file(surface->cage->path),
             "the surface has no area; there is nothing to texture");
     return check_edges(run, surface, request);
 }

@@ -111,7 +111,7 @@ check_fit(
     if (side > width || side > height)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE,
-            (otx_where){exemplar->source_path, 0, -1, -1},
+            otx_where_file(exemplar->source_path),
             "the picture has %d x %d texels and a tile needs %d x %d of them; "
             "take smaller tiles (--tile-size) or a larger picture",
             (int)width, (int)height, (int)side, (int)side);

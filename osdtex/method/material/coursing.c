@@ -26,8 +26,7 @@ otx_coursing_choose(otx_material *m)
         found.count = 0;
     if (wish == OTX_COURSING_ON && found.count == 0)
         return otx_fail(
-            m->run, OSDTEX_ERROR_SUPPORT, "map",
-            (otx_where){e->source_path, 0, -1, -1},
+            m->run, OSDTEX_ERROR_SUPPORT, "map", otx_where_file(e->source_path),
             "courses are asked for, and the exemplar has none that repeat "
             "across a picture that tiles; try --tileable make, or leave out "
             "courses=on");
@@ -42,8 +41,7 @@ otx_coursing_choose(otx_material *m)
     g[1] = found.upright ? (otx_vec2){-height, 0} : (otx_vec2){0, height};
     m->analysis.angle = found.upright ? 0.5 * OTX_PI : 0.0;
     otx_note(
-        m->run, OSDTEX_SEVERITY_INFO, "map",
-        (otx_where){e->source_path, 0, -1, -1},
+        m->run, OSDTEX_SEVERITY_INFO, "map", otx_where_file(e->source_path),
         "%d courses of %.0f texels, laid one by one (courses=off: as one "
         "lattice)",
         (int)found.count, height);

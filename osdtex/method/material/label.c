@@ -56,7 +56,7 @@ choose_window(const otx_material *m, double rim, window *out)
     if (out->columns == 0)
         return otx_fail(
             m->run, OSDTEX_ERROR_SUPPORT, "map",
-            (otx_where){m->exemplar->source_path, 0, -1, -1},
+            otx_where_file(m->exemplar->source_path),
             "the exemplar does not tile, and not one of its lattice cells lies "
             "inside it with room for a face around; give a picture that shows "
             "more of the lattice, or raise --level");

@@ -19,7 +19,7 @@ choose_lattice(otx_material *m)
         m->settings->courses != OTX_COURSING_ON)
         return otx_fail(
             m->run, OSDTEX_ERROR_SUPPORT, "map",
-            (otx_where){m->exemplar->source_path, 0, -1, -1},
+            otx_where_file(m->exemplar->source_path),
             "the exemplar is %s: periodic coordinates need a lattice; give it "
             "with --generators, say --set courses=on for masonry, or take "
             "another method",

@@ -100,7 +100,7 @@ otx_tile_level(
     if (settings->level >= 0 && settings->level < first)
         return otx_fail(
             run, OSDTEX_ERROR_TOPOLOGY, STAGE,
-            (otx_where){surface->cage->path, 0, -1, -1},
+            otx_where_file(surface->cage->path),
             "level %d has faces that are no quads; lay the tiles at level %d "
             "or finer",
             (int)settings->level, (int)first);
@@ -326,7 +326,7 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     if (layout->cell == 0)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE,
-            (otx_where){exemplar->source_path, 0, -1, -1},
+            otx_where_file(exemplar->source_path),
             "this method needs a tiled texture; make one from the picture with "
             "osdtex tiles");
     OTX_TRY(
