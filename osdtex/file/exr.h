@@ -79,9 +79,15 @@ typedef struct otx_exr_size
 
 /* Adds `path` to `set` and writes its header. The writer lives in run->scratch
  * and closes the file when that is released; `path` must live as long.
- * options->levels is not looked at: every level is put by the caller. */
+ * options->levels is not looked at: every level is put by the caller. ARGUMENT,
+ * IO, MEMORY. */
 otx_status otx_exr_begin(
     otx_run *run, otx_atomic_file_set *set, const char *path, otx_exr_size size,
+    const otx_exr_options *options, otx_exr_writer **out);
+
+/* The same for a path that is in a set already, under the name `temporary`. */
+otx_status otx_exr_open(
+    otx_run *run, const char *path, const char *temporary, otx_exr_size size,
     const otx_exr_options *options, otx_exr_writer **out);
 
 /* Writes the next chunk, in file order: levels from 0 up; within a level rows

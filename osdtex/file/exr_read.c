@@ -6,6 +6,8 @@
  * be checked against the chunk that was really read. */
 #include "file/exr.h"
 
+#include "file/exr_layer.h"
+
 /* The table of the C++ library is not linked. */
 #define IMATH_HALF_NO_LOOKUP_TABLE
 #include <Imath/half.h>
@@ -16,9 +18,7 @@
 
 enum
 {
-    NAMES_BYTES = 400,
-    MAX_BLOCK_BYTES = 1 << 29,
-    NONE = -1
+    MAX_BLOCK_BYTES = 1 << 29
 };
 
 typedef struct reader
@@ -29,10 +29,8 @@ typedef struct reader
     exr_decode_pipeline_t pipeline;
     bool pipeline_is_open;
     otx_picture *out;
-    int part;
+    otx_exr_layer layer;
     exr_compression_t compression;
-    /* Sources of R, G, B, A in the part's channel list; A may be NONE. */
-    int32_t channels[4];
 } reader;
 
 /* Without a handler the core prints. What it says may quote bytes of the file,
@@ -99,198 +97,11 @@ reader_open(reader *r)
     return code == EXR_ERR_SUCCESS ? OSDTEX_OK : reader_failed(r, code);
 }
 
-/* ---- which part and which channels ------------------------------------- */
-
-/* Index of the channel `layer` + `name`, or NONE. `layer` has `length` bytes,
- * its dot included. */
-static int32_t
-find_channel(
-    const exr_attr_chlist_t *list, const char *layer, size_t length,
-    const char *name)
-{
-    for (int32_t i = 0; i < list->num_channels; ++i)
-    {
-        const char *entry = list->entries[i].name.str;
-
-        if (strncmp(entry, layer, length) == 0 &&
-            strcmp(entry + length, name) == 0)
-            return i;
-    }
-    return NONE;
-}
-
-/* Takes R, G, B (and A) of a layer. False when one of the three is missing. */
-static bool
-take_layer(
-    reader *r, const exr_attr_chlist_t *list, const char *layer, size_t length)
-{
-    static const char *const names[4] = {"R", "G", "B", "A"};
-
-    for (int32_t i = 0; i < 4; ++i)
-        r->channels[i] = find_channel(list, layer, length, names[i]);
-    return r->channels[0] != NONE && r->channels[1] != NONE &&
-           r->channels[2] != NONE;
-}
-
-/* Luminance alone. With chroma (RY, BY) it is only part of a colour. */
-static bool
-take_gray(reader *r, const exr_attr_chlist_t *list)
-{
-    const int32_t y = find_channel(list, "", 0, "Y");
-
-    if (y == NONE || find_channel(list, "", 0, "RY") != NONE)
-        return false;
-    r->channels[0] = r->channels[1] = r->channels[2] = y;
-    r->channels[3] = find_channel(list, "", 0, "A");
-    r->out->is_gray = true;
-    return true;
-}
-
-/* The first layer, in the order of the file, that has R, G and B. */
-static bool
-take_any_layer(reader *r, const exr_attr_chlist_t *list)
-{
-    for (int32_t i = 0; i < list->num_channels; ++i)
-    {
-        const char *name = list->entries[i].name.str;
-        const char *dot = strrchr(name, '.');
-        char *layer;
-
-        if (!dot || !take_layer(r, list, name, (size_t)(dot + 1 - name)))
-            continue;
-        layer = otx_arena_strdup(r->run->arena, name);
-        if (layer)
-            layer[dot - name] = '\0';
-        r->out->layer = layer;
-        return layer != NULL;
-    }
-    return false;
-}
-
-static bool
-part_is_flat(const reader *r, int part)
-{
-    exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
-
-    return exr_get_storage(r->file, part, &storage) == EXR_ERR_SUCCESS &&
-           (storage == EXR_STORAGE_SCANLINE || storage == EXR_STORAGE_TILED);
-}
-
-/* What is there, for the message that says it is not what is needed. Bytes
- * that are not printable ASCII become '?'. */
-static void
-list_channels(const reader *r, int part_count, char text[NAMES_BYTES])
-{
-    const exr_attr_chlist_t *list = NULL;
-    size_t used = 0;
-
-    text[0] = '\0';
-    for (int part = 0; part < part_count; ++part)
-    {
-        if (exr_get_channels(r->file, part, &list) != EXR_ERR_SUCCESS)
-            continue;
-        for (int32_t i = 0; i < list->num_channels; ++i)
-        {
-            const int n = snprintf(
-                text + used, NAMES_BYTES - used, "%s%s", used > 0 ? ", " : "",
-                list->entries[i].name.str);
-
-            if (n < 0 || (size_t)n >= NAMES_BYTES - used)
-                break;
-            used += (size_t)n;
-        }
-    }
-    for (char *c = text; *c; ++c)
-        if (*c < ' ' || *c > '~')
-            *c = '?';
-}
-
-static otx_status
-no_color(const reader *r, int part_count)
-{
-    char names[NAMES_BYTES];
-    bool deep = true;
-
-    for (int part = 0; part < part_count; ++part)
-        deep = deep && !part_is_flat(r, part);
-    if (deep)
-        return otx_fail(
-            r->run, OSDTEX_ERROR_SUPPORT, "picture", otx_where_file(r->path),
-            "the EXR is deep; flatten it, for example with oiiotool --flatten");
-    list_channels(r, part_count, names);
-    return otx_fail(
-        r->run, OSDTEX_ERROR_SUPPORT, "picture", otx_where_file(r->path),
-        "the EXR has no R, G, B, no Y alone and no layer with R, G, B, only "
-        "%s; rename or select channels, for example with oiiotool --ch",
-        names);
-}
-
-/* The first flat part with colour. */
-static otx_status
-choose_part(reader *r)
-{
-    const exr_attr_chlist_t *list = NULL;
-    int part_count = 0;
-
-    exr_get_count(r->file, &part_count);
-    for (r->part = 0; r->part < part_count; ++r->part)
-        if (part_is_flat(r, r->part) &&
-            exr_get_channels(r->file, r->part, &list) == EXR_ERR_SUCCESS &&
-            (take_layer(r, list, "", 0) || take_gray(r, list) ||
-             take_any_layer(r, list)))
-            break;
-    if (r->part == part_count)
-        return no_color(r, part_count);
-    r->out->part = r->part;
-    if (part_count > 1)
-        otx_note(
-            r->run, OSDTEX_SEVERITY_INFO, "picture", otx_where_file(r->path),
-            "the EXR has %d parts; part %d is the first with colour and is "
-            "used",
-            part_count, r->part);
-    if (r->out->layer)
-        otx_note(
-            r->run, OSDTEX_SEVERITY_INFO, "picture", otx_where_file(r->path),
-            "the EXR has no plain R, G, B; layer \"%s\" is used",
-            r->out->layer);
-    return OSDTEX_OK;
-}
-
-/* Subsampled colours would need a reconstruction filter; alpha alone is
- * dropped. */
-static otx_status
-check_channels(reader *r)
-{
-    const exr_attr_chlist_t *list = NULL;
-
-    exr_get_channels(r->file, r->part, &list);
-    for (int32_t i = 0; i < 4; ++i)
-    {
-        const exr_attr_chlist_entry_t *entry;
-
-        if (r->channels[i] == NONE)
-            continue;
-        entry = &list->entries[r->channels[i]];
-        if (entry->x_sampling == 1 && entry->y_sampling == 1)
-            continue;
-        if (i < 3)
-            return otx_fail(
-                r->run, OSDTEX_ERROR_SUPPORT, "picture",
-                otx_where_file(r->path),
-                "the EXR has subsampled colours; convert it to full "
-                "resolution R, G, B");
-        r->channels[i] = NONE;
-    }
-    r->out->bits =
-        list->entries[r->channels[0]].pixel_type == EXR_PIXEL_HALF ? 16 : 32;
-    return OSDTEX_OK;
-}
-
 static otx_status
 check_compression(reader *r)
 {
     const exr_result_t code =
-        exr_get_compression(r->file, r->part, &r->compression);
+        exr_get_compression(r->file, r->layer.part, &r->compression);
 
     if (code != EXR_ERR_SUCCESS)
         return reader_failed(r, code);
@@ -314,7 +125,7 @@ read_text(const reader *r, const char *name)
     int32_t length = 0;
     char *copy;
 
-    if (exr_attr_get_string(r->file, r->part, name, &length, &text) !=
+    if (exr_attr_get_string(r->file, r->layer.part, name, &length, &text) !=
             EXR_ERR_SUCCESS ||
         !text || length <= 0)
         return NULL;
@@ -332,13 +143,17 @@ read_metadata(reader *r)
     exr_attr_chromaticities_t c;
     otx_picture *out = r->out;
 
+    out->part = r->layer.part;
+    out->layer = r->layer.name;
+    out->is_gray = r->layer.is_gray;
+    out->bits = r->layer.bits;
     out->is_float = true;
-    out->alpha_is_premultiplied = r->channels[3] != NONE;
+    out->alpha_is_premultiplied = r->layer.channels[3] != OTX_EXR_NO_CHANNEL;
     out->interop_id = read_text(r, "colorInteropID");
     out->oiio_space = read_text(r, "oiio:ColorSpace");
     out->tiles = read_text(r, "osdtex:tiles");
-    if (exr_attr_get_chromaticities(r->file, r->part, "chromaticities", &c) !=
-        EXR_ERR_SUCCESS)
+    if (exr_attr_get_chromaticities(
+            r->file, r->layer.part, "chromaticities", &c) != EXR_ERR_SUCCESS)
         return;
     const float values[8] = {c.red_x,  c.red_y,  c.green_x, c.green_y,
                              c.blue_x, c.blue_y, c.white_x, c.white_y};
@@ -414,10 +229,10 @@ static otx_status
 read_windows(reader *r)
 {
     exr_attr_box2i_t data, display;
-    exr_result_t code = exr_get_data_window(r->file, r->part, &data);
+    exr_result_t code = exr_get_data_window(r->file, r->layer.part, &data);
 
     if (code == EXR_ERR_SUCCESS)
-        code = exr_get_display_window(r->file, r->part, &display);
+        code = exr_get_display_window(r->file, r->layer.part, &display);
     if (code != EXR_ERR_SUCCESS)
         return reader_failed(r, code);
     r->out->data_window = window_of(data);
@@ -428,8 +243,8 @@ read_windows(reader *r)
 
     return otx_picture_create(
         r->run, r->path, span_of(visible.x_min, visible.x_max),
-        span_of(visible.y_min, visible.y_max), r->channels[3] == NONE ? 3 : 4,
-        r->out);
+        span_of(visible.y_min, visible.y_max),
+        r->layer.channels[3] == OTX_EXR_NO_CHANNEL ? 3 : 4, r->out);
 }
 
 /* ---- pixels ------------------------------------------------------------- */
@@ -483,7 +298,7 @@ store_row(
     {
         float *row = otx_picture_row(r->out, y - visible.y_min) + c;
 
-        if (r->channels[c] != channel)
+        if (r->layer.channels[c] != channel)
             continue;
         for (int32_t i = first; i <= last; ++i)
             row[(size_t)(i - visible.x_min) * (size_t)channels] = load_sample(
@@ -537,20 +352,21 @@ read_chunk(reader *r, const exr_chunk_info_t *chunk, int32_t x, int32_t y)
             "tiles or fewer channels",
             (unsigned long long)chunk->unpacked_size);
     if (r->pipeline_is_open)
-        code = exr_decoding_update(r->file, r->part, chunk, &r->pipeline);
+        code = exr_decoding_update(r->file, r->layer.part, chunk, &r->pipeline);
     else
     {
-        code = exr_decoding_initialize(r->file, r->part, chunk, &r->pipeline);
+        code = exr_decoding_initialize(
+            r->file, r->layer.part, chunk, &r->pipeline);
         r->pipeline_is_open = code == EXR_ERR_SUCCESS;
         r->pipeline.alloc_fn = alloc_zeroed;
         r->pipeline.free_fn = free_zeroed;
         if (code == EXR_ERR_SUCCESS)
             code = exr_decoding_choose_default_routines(
-                r->file, r->part, &r->pipeline);
+                r->file, r->layer.part, &r->pipeline);
         r->pipeline.unpack_and_convert_fn = NULL;
     }
     if (code == EXR_ERR_SUCCESS)
-        code = exr_decoding_run(r->file, r->part, &r->pipeline);
+        code = exr_decoding_run(r->file, r->layer.part, &r->pipeline);
     if (code == EXR_ERR_SUCCESS && !unpack(r, x, y))
         code = EXR_ERR_CORRUPT_CHUNK;
     return code == EXR_ERR_SUCCESS ? OSDTEX_OK : reader_failed(r, code);
@@ -561,7 +377,8 @@ read_scanlines(reader *r)
 {
     const otx_picture_window data = r->out->data_window;
     int32_t rows = 0;
-    exr_result_t code = exr_get_scanlines_per_chunk(r->file, r->part, &rows);
+    exr_result_t code =
+        exr_get_scanlines_per_chunk(r->file, r->layer.part, &rows);
 
     if (code != EXR_ERR_SUCCESS || rows < 1)
         return reader_failed(r, code);
@@ -569,7 +386,8 @@ read_scanlines(reader *r)
     {
         exr_chunk_info_t chunk = {0};
 
-        code = exr_read_scanline_chunk_info(r->file, r->part, (int)y, &chunk);
+        code = exr_read_scanline_chunk_info(
+            r->file, r->layer.part, (int)y, &chunk);
         if (code != EXR_ERR_SUCCESS)
             return reader_failed(r, code);
         OTX_TRY(read_chunk(r, &chunk, data.x_min, (int32_t)y));
@@ -583,7 +401,7 @@ read_tile(reader *r, int32_t x, int32_t y, int32_t width, int32_t height)
     const otx_picture_window data = r->out->data_window;
     exr_chunk_info_t chunk = {0};
     const exr_result_t code =
-        exr_read_tile_chunk_info(r->file, r->part, x, y, 0, 0, &chunk);
+        exr_read_tile_chunk_info(r->file, r->layer.part, x, y, 0, 0, &chunk);
 
     if (code != EXR_ERR_SUCCESS)
         return reader_failed(r, code);
@@ -598,7 +416,7 @@ read_tiles(reader *r)
     const otx_picture_window data = r->out->data_window;
     int32_t width = 0, height = 0;
     const exr_result_t code =
-        exr_get_tile_sizes(r->file, r->part, 0, 0, &width, &height);
+        exr_get_tile_sizes(r->file, r->layer.part, 0, 0, &width, &height);
 
     if (code != EXR_ERR_SUCCESS || width < 1 || height < 1)
         return reader_failed(r, code);
@@ -620,11 +438,10 @@ otx_exr_read(otx_run *run, const char *path, otx_picture *out)
     r->path = path;
     r->out = out;
     OTX_TRY(reader_open(r));
-    OTX_TRY(choose_part(r));
-    OTX_TRY(check_channels(r));
+    OTX_TRY(otx_exr_layer_choose(run, path, r->file, &r->layer));
     OTX_TRY(check_compression(r));
     read_metadata(r);
     OTX_TRY(read_windows(r));
-    exr_get_storage(r->file, r->part, &storage);
+    exr_get_storage(r->file, r->layer.part, &storage);
     return storage == EXR_STORAGE_TILED ? read_tiles(r) : read_scanlines(r);
 }

@@ -16,8 +16,7 @@
 
 enum
 {
-    SHORT_NAME_BYTES = 31, /* longer names need a flag in the file */
-    BATCH = 64             /* chunks of a picture packed at once */
+    SHORT_NAME_BYTES = 31 /* longer names need a flag in the file */
 };
 
 struct otx_exr_writer
@@ -350,7 +349,7 @@ otx_exr_put(
     return otx_exr_put_packed(w, level, x, y, &chunk);
 }
 
-/* ---- files --------------------------------------------------------------- */
+/* ---- files -------------------------------------------------------------- */
 
 static otx_status
 check_size(otx_run *run, const char *path, otx_exr_size size)
@@ -387,15 +386,16 @@ make_packers(otx_run *run, otx_exr_writer *w)
     return OSDTEX_OK;
 }
 
-/* Opens `temporary`, in which the file that will be `path` grows. */
-static otx_status
-begin(
+otx_status
+otx_exr_open(
     otx_run *run, const char *path, const char *temporary, otx_exr_size size,
     const otx_exr_options *options, otx_exr_writer **out)
 {
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     otx_exr_writer *w = OTX_ZNEW(run->scratch, otx_exr_writer, 1);
 
+    *out = NULL;
+    OTX_TRY(check_size(run, path, size));
     if (!w || !otx_arena_defer(run->scratch, writer_close, w))
         return otx_fail_memory(run, "picture");
     w->run = run;
@@ -422,9 +422,8 @@ otx_exr_begin(
     const char *temporary;
 
     *out = NULL;
-    OTX_TRY(check_size(run, path, size));
     OTX_TRY(otx_atomic_file_add(run, set, path, &temporary));
-    return begin(run, path, temporary, size, options, out);
+    return otx_exr_open(run, path, temporary, size, options, out);
 }
 
 otx_status
@@ -445,149 +444,4 @@ otx_exr_end(otx_exr_writer *w)
             "%lld values beyond the half range were clamped to 65504",
             (long long)w->clamped_count);
     return check(w, code);
-}
-
-/* A run of chunks of one level, packed on all threads. */
-typedef struct batch
-{
-    const otx_exr_writer *writer;
-    const otx_image *image;
-    int64_t first; /* chunks before it */
-    int32_t columns;
-    otx_exr_chunk chunks[BATCH];
-} batch;
-
-static otx_status
-pack_one(void *context, int64_t index, otx_worker *worker)
-{
-    batch *b = context;
-    const otx_exr_writer *w = b->writer;
-    const int32_t x = (int32_t)((b->first + index) % b->columns);
-    const int32_t y = (int32_t)((b->first + index) / b->columns);
-    const place p = place_of(w, w->level, x, y);
-    const int32_t lower = b->image->height - p.y - p.height;
-
-    otx_exr_pack(
-        w, worker->index, w->level, x, y, otx_image_at(b->image, p.x, lower),
-        (ptrdiff_t)b->image->width * b->image->channels, &b->chunks[index]);
-    return OSDTEX_OK;
-}
-
-static otx_status
-put_chunks(otx_exr_writer *w, batch *b, int64_t count)
-{
-    const int32_t level = w->level;
-    const int64_t left = count - b->first;
-    const int32_t here = left < BATCH ? (int32_t)left : BATCH;
-
-    if (level == 0)
-        OTX_TRY(
-            otx_progress(w->run, "write", (double)b->first / (double)count));
-    OTX_TRY(otx_pool_for(w->run->pool, here, pack_one, b));
-    for (int32_t i = 0; i < here; ++i, ++b->first)
-        OTX_TRY(otx_exr_put_packed(
-            w, level, (int32_t)(b->first % b->columns),
-            (int32_t)(b->first / b->columns), &b->chunks[i]));
-    return OSDTEX_OK;
-}
-
-/* Puts all chunks of the level that is next. */
-static otx_status
-put_level(otx_exr_writer *w, const otx_image *image)
-{
-    const otx_arena_mark mark = otx_arena_here(w->run->scratch);
-    const size_t bytes = otx_exr_packed_bytes(w);
-    const int32_t columns =
-        (image->width + chunk_width(w) - 1) / chunk_width(w);
-    const int32_t rows =
-        (image->height + chunk_height(w) - 1) / chunk_height(w);
-    const int64_t count = (int64_t)columns * rows;
-    batch *b = OTX_ZNEW(w->run->scratch, batch, 1);
-
-    if (!b)
-        return otx_fail_memory(w->run, "picture");
-    b->writer = w;
-    b->image = image;
-    b->columns = columns;
-    for (int32_t i = 0; i < BATCH && i < count; ++i)
-    {
-        b->chunks[i].bytes = OTX_NEW(w->run->scratch, uint8_t, bytes);
-        if (!b->chunks[i].bytes)
-            return otx_fail_memory(w->run, "picture");
-    }
-    while (b->first < count)
-        OTX_TRY(put_chunks(w, b, count));
-    otx_arena_release(w->run->scratch, mark);
-    return OSDTEX_OK;
-}
-
-static otx_status
-write_levels(
-    otx_exr_writer *w, const otx_image *image, const otx_exr_options *options)
-{
-    otx_image above = *image;
-
-    OTX_TRY(put_level(w, image));
-    for (int32_t level = 1; level < w->level_count; ++level)
-    {
-        otx_image next;
-
-        if (options->levels)
-            next = options->levels[level - 1];
-        else
-            OTX_TRY(otx_pyramid_reduce(w->run, w->run->scratch, &above, &next));
-        OTX_TRY(put_level(w, &next));
-        above = next;
-    }
-    return otx_exr_end(w);
-}
-
-static otx_status
-check_levels(
-    otx_run *run, const char *path, const otx_image *image,
-    const otx_exr_options *options)
-{
-    const int32_t count = otx_pyramid_count(image->width, image->height) - 1;
-    bool ok = options->level_count == count;
-
-    if (!options->tiled || !options->levels)
-        return OSDTEX_OK;
-    for (int32_t i = 0; ok && i < count; ++i)
-    {
-        const otx_image *level = &options->levels[i];
-
-        ok = level->width == otx_pyramid_side(image->width, i + 1) &&
-             level->height == otx_pyramid_side(image->height, i + 1) &&
-             level->channels == image->channels;
-    }
-    if (!ok)
-        return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, "picture", otx_where_file(path),
-            "the mip levels given do not fit a picture of %d x %d",
-            image->width, image->height);
-    return OSDTEX_OK;
-}
-
-otx_status
-otx_exr_write(
-    otx_run *run, otx_atomic_file_set *set, const char *path,
-    const otx_image *image, const otx_exr_options *options)
-{
-    const otx_exr_size size = {image->width, image->height, image->channels};
-    const char *temporary;
-    otx_exr_writer *w;
-    otx_status status;
-
-    OTX_TRY(check_size(run, path, size));
-    OTX_TRY(check_levels(run, path, image, options));
-    /* Before the mark: the set may live in the scratch arena too. */
-    OTX_TRY(otx_atomic_file_add(run, set, path, &temporary));
-
-    const otx_arena_mark mark = otx_arena_here(run->scratch);
-
-    status = begin(run, path, temporary, size, options, &w);
-    if (status == OSDTEX_OK)
-        status = write_levels(w, image, options);
-    otx_arena_release(run->scratch, mark);
-    return status;
 }
