@@ -8,32 +8,18 @@
  * meshes. SIGGRAPH 2001. */
 #include "mapping/measure.h"
 
+#include "mapping/coverage.h"
 #include "mapping/seam.h"
+#include "mapping/series.h"
 #include "mapping/window.h"
 #include "surface/limit.h"
 
-#include <stdlib.h>
-
 enum
 {
-    CELLS = 32,       /* of the exemplar's longer side, for coverage */
-    PIECES_MAX = 64,  /* of a triangle's side, for coverage */
-    CORNERS_MAX = 64, /* of a face; longer ones are measured by their first */
+    CORNERS_MAX = 64 /* of a face; longer ones are measured by their first */
 };
 
 static const char stage[] = "measure";
-
-typedef struct weighted
-{
-    double value, weight;
-} weighted;
-
-/* Values to be averaged and ranked. */
-typedef struct series
-{
-    int32_t count;
-    weighted *items;
-} series;
 
 /* A face laid into its plane, and its UVs, both in scene units. */
 typedef struct laid_face
@@ -43,14 +29,6 @@ typedef struct laid_face
     otx_vec2 q[CORNERS_MAX];
 } laid_face;
 
-/* How the faces use one exemplar. */
-typedef struct use
-{
-    double cell; /* texels */
-    int32_t cells_x, cells_y;
-    double *cells; /* [cells_x * cells_y], scene units squared */
-} use;
-
 typedef struct survey
 {
     const otx_mapping *mapping;
@@ -58,60 +36,11 @@ typedef struct survey
     int32_t exemplar_count;
     const otx_level *leaf;
     double density;
-    series l2, ratio, log_area;
-    use uses[OTX_EXEMPLARS_MAX];
+    otx_series l2, ratio, log_area;
+    otx_coverage uses[OTX_EXEMPLARS_MAX];
     laid_face face; /* the one at hand */
     int32_t source; /* the exemplar that it shows */
 } survey;
-
-static int
-compare_weighted(const void *a, const void *b)
-{
-    const weighted *p = a, *q = b;
-
-    if (p->value != q->value)
-        return p->value < q->value ? -1 : 1;
-    return (p->weight > q->weight) - (p->weight < q->weight);
-}
-
-static double
-series_mean(const series *s)
-{
-    double sum = 0.0, weight = 0.0;
-
-    for (int32_t i = 0; i < s->count; ++i)
-    {
-        sum += s->items[i].value * s->items[i].weight;
-        weight += s->items[i].weight;
-    }
-    return weight > 0.0 ? sum / weight : 0.0;
-}
-
-/* Least value that `share` of the weight does not exceed. Sorts. */
-static double
-series_quantile(series *s, double share)
-{
-    double total = 0.0, sum = 0.0;
-
-    if (s->count == 0)
-        return 0.0;
-    qsort(s->items, (size_t)s->count, sizeof *s->items, compare_weighted);
-    for (int32_t i = 0; i < s->count; ++i)
-        total += s->items[i].weight;
-    for (int32_t i = 0; i < s->count; ++i)
-    {
-        sum += s->items[i].weight;
-        if (sum >= share * total)
-            return s->items[i].value;
-    }
-    return s->items[s->count - 1].value;
-}
-
-static void
-series_add(series *s, double value, double weight)
-{
-    s->items[s->count++] = (weighted){value, weight};
-}
 
 static double
 polygon_area(const otx_vec2 *points, int32_t count)
@@ -260,55 +189,6 @@ has_fold(const laid_face *face)
     return false;
 }
 
-/* Cell of a coordinate along one axis. */
-static int32_t
-cell_at(double texel, int32_t size, bool wrap, double cell, int32_t count)
-{
-    const double inside = wrap ? texel - size * floor(texel / size) : texel;
-    const double index = floor(inside / cell);
-
-    if (!(index > 0.0))
-        return 0;
-    return index < count - 1 ? (int32_t)index : count - 1;
-}
-
-static void
-use_point(survey *s, otx_vec2 texel, double area)
-{
-    const otx_exemplar *exemplar = &s->exemplars[s->source];
-    use *u = &s->uses[s->source];
-    const int32_t x = cell_at(
-        texel.x, exemplar->match.width, exemplar->wrap_x, u->cell, u->cells_x);
-    const int32_t y = cell_at(
-        texel.y, exemplar->match.height, exemplar->wrap_y, u->cell, u->cells_y);
-
-    u->cells[(size_t)y * (size_t)u->cells_x + (size_t)x] += area;
-}
-
-/* Spreads the area of a triangle over the cells that its UVs lie in, as
- * points at the centroids of n * n equal pieces about half a cell wide. */
-static void
-use_triangle(survey *s, const otx_vec2 q[3], double area)
-{
-    const otx_vec2 u = otx_vec2_sub(q[1], q[0]), v = otx_vec2_sub(q[2], q[0]);
-    const double side = fmax(otx_vec2_length(u), otx_vec2_length(v));
-    const double wanted = ceil(2.0 * side / s->uses[s->source].cell);
-    const int32_t n =
-        wanted < PIECES_MAX ? (wanted > 1.0 ? (int32_t)wanted : 1) : PIECES_MAX;
-    const double piece = area / ((double)n * n);
-
-    for (int32_t i = 0; i < n; ++i)
-        for (int32_t j = 0; i + j < n; ++j)
-            for (int32_t half = 1; half <= (i + j + 1 < n ? 2 : 1); ++half)
-                use_point(
-                    s,
-                    otx_vec2_add(
-                        q[0], otx_vec2_add(
-                                  otx_vec2_scale((i + half / 3.0) / n, u),
-                                  otx_vec2_scale((j + half / 3.0) / n, v))),
-                    piece);
-}
-
 static void
 use_face(survey *s, const laid_face *face)
 {
@@ -320,7 +200,7 @@ use_face(survey *s, const laid_face *face)
             otx_vec2_scale(s->density, face->q[k]),
             otx_vec2_scale(s->density, face->q[k + 1])};
 
-        use_triangle(s, q, fabs(polygon_area(p, 3)));
+        otx_coverage_add(&s->uses[s->source], q, fabs(polygon_area(p, 3)));
     }
 }
 
@@ -369,27 +249,12 @@ survey_face(survey *s, int32_t index, otx_measure *out)
     use_face(s, face);
     if (!(uv_area > 0.0) || !singular_values(face, &larger, &smaller))
         return;
-    series_add(
+    otx_series_add(
         &s->l2,
         sqrt(0.5 * (1.0 / (larger * larger) + 1.0 / (smaller * smaller))),
         area);
-    series_add(&s->ratio, larger / smaller, area);
-    series_add(&s->log_area, fabs(log(larger * smaller)), area);
-}
-
-/* exp of the entropy of how the surface uses the cells: 1 all alike. */
-static double
-coverage(const use *u)
-{
-    const size_t count = (size_t)u->cells_x * (size_t)u->cells_y;
-    double total = 0.0, entropy = 0.0;
-
-    for (size_t i = 0; i < count; ++i)
-        total += u->cells[i];
-    for (size_t i = 0; i < count; ++i)
-        if (u->cells[i] > 0.0)
-            entropy -= u->cells[i] / total * log(u->cells[i] / total);
-    return total > 0.0 ? exp(entropy) / (double)count : 0.0;
+    otx_series_add(&s->ratio, larger / smaller, area);
+    otx_series_add(&s->log_area, fabs(log(larger * smaller)), area);
 }
 
 static void
@@ -399,7 +264,7 @@ measure_coverage(const survey *s, otx_measure *out)
 
     for (int32_t k = 0; k < s->exemplar_count; ++k)
     {
-        out->shares[k].coverage = coverage(&s->uses[k]);
+        out->shares[k].coverage = otx_coverage_evenness(&s->uses[k]);
         sum += out->shares[k].coverage * out->shares[k].area;
     }
     out->coverage = s->exemplar_count == 1 ? out->shares[0].coverage
@@ -408,28 +273,17 @@ measure_coverage(const survey *s, otx_measure *out)
 }
 
 static bool
-allocate_use(otx_run *run, const otx_image *image, use *u)
-{
-    const double width = image->width, height = image->height;
-
-    u->cell = fmax(width, height) / CELLS;
-    u->cells_x = (int32_t)ceil(width / u->cell);
-    u->cells_y = (int32_t)ceil(height / u->cell);
-    u->cells = OTX_ZNEW(run->scratch, double, u->cells_x *(int64_t)u->cells_y);
-    return u->cells != NULL;
-}
-
-static bool
 allocate_survey(otx_run *run, survey *s)
 {
-    series *all[] = {&s->l2, &s->ratio, &s->log_area};
+    otx_series *all[] = {&s->l2, &s->ratio, &s->log_area};
 
     for (int32_t k = 0; k < s->exemplar_count; ++k)
-        if (!allocate_use(run, &s->exemplars[k].match, &s->uses[k]))
+        if (!otx_coverage_begin(run->scratch, &s->exemplars[k], &s->uses[k]))
             return false;
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
     {
-        all[i]->items = OTX_NEW(run->scratch, weighted, s->leaf->face_count);
+        all[i]->items =
+            OTX_NEW(run->scratch, otx_series_item, s->leaf->face_count);
         if (!all[i]->items)
             return false;
     }
@@ -462,11 +316,11 @@ measure_faces(otx_run *run, survey *s, otx_measure *out)
         }
         survey_face(s, f, out);
     }
-    out->log_area_mean = series_mean(&s->log_area);
-    out->stretch_l2_mean = series_mean(&s->l2);
-    out->stretch_l2_p95 = series_quantile(&s->l2, 0.95);
-    out->stretch_ratio_mean = series_mean(&s->ratio);
-    out->stretch_ratio_p95 = series_quantile(&s->ratio, 0.95);
+    out->log_area_mean = otx_series_mean(&s->log_area);
+    out->stretch_l2_mean = otx_series_mean(&s->l2);
+    out->stretch_l2_p95 = otx_series_quantile(&s->l2, 0.95);
+    out->stretch_ratio_mean = otx_series_mean(&s->ratio);
+    out->stretch_ratio_p95 = otx_series_quantile(&s->ratio, 0.95);
     measure_coverage(s, out);
     return OSDTEX_OK;
 }
@@ -517,7 +371,7 @@ ratio_or_zero(double value, double unit)
 
 /* Samples of the seams, or of the transitions; the sum of their squares. */
 static double
-take_samples(const otx_seam_list *list, bool transition, series *out)
+take_samples(const otx_seam_list *list, bool transition, otx_series *out)
 {
     double squares = 0.0;
 
@@ -527,7 +381,7 @@ take_samples(const otx_seam_list *list, bool transition, series *out)
              ++k)
         {
             squares += (double)list->samples[k] * list->samples[k];
-            series_add(out, list->samples[k], 1.0);
+            otx_series_add(out, list->samples[k], 1.0);
         }
     return squares;
 }
@@ -538,7 +392,7 @@ measure_seams(
     otx_measure *out)
 {
     const int32_t count = list->sample_first[list->edge_count];
-    series s = {.items = OTX_NEW(run->scratch, weighted, count)};
+    otx_series s = {.items = OTX_NEW(run->scratch, otx_series_item, count)};
     double squares;
 
     if (!s.items)
@@ -549,8 +403,8 @@ measure_seams(
     s.count = 0;
     squares = take_samples(list, false, &s);
     out->seam_rms = s.count > 0 ? sqrt(squares / s.count) : 0.0;
-    out->seam_p50 = series_quantile(&s, 0.5);
-    out->seam_p95 = series_quantile(&s, 0.95);
+    out->seam_p50 = otx_series_quantile(&s, 0.5);
+    out->seam_p95 = otx_series_quantile(&s, 0.95);
     out->seam_rms_sigma = ratio_or_zero(out->seam_rms, out->lab_sigma);
     out->seam_rms_step = ratio_or_zero(out->seam_rms, out->lab_step);
     out->seam_p95_sigma = ratio_or_zero(out->seam_p95, out->lab_sigma);

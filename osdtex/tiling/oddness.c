@@ -7,6 +7,7 @@
  * see, nor do medians, which see that most of a cut is good. */
 #include "tiling/oddness.h"
 
+#include "base/sort.h"
 #include "tiling/window_search.h"
 
 #include <stdlib.h>
@@ -76,14 +77,6 @@ probe(void *context, int64_t index, otx_worker *worker)
     return OSDTEX_OK;
 }
 
-static int
-compare_double(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
-
 static otx_status
 run_survey(otx_run *run, survey *s, double *out)
 {
@@ -94,7 +87,7 @@ run_survey(otx_run *run, survey *s, double *out)
         return OSDTEX_OK;
     s->stride = (int32_t)fmax(1.0, sqrt(places / PLACES));
     OTX_TRY(otx_pool_for(run->pool, s->count, probe, s));
-    qsort(s->found, (size_t)s->count, sizeof *s->found, compare_double);
+    otx_sort_doubles(s->found, (size_t)s->count);
     *out = sqrt(s->found[(int32_t)(QUANTILE * s->count)]);
     return OSDTEX_OK;
 }

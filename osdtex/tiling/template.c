@@ -1,9 +1,10 @@
 /* template.c -- candidates for corners and edges, and the choice. */
 #include "tiling/template.h"
+
 #include "base/random.h"
+#include "base/sort.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum
@@ -204,14 +205,6 @@ try_edge(void *context, int64_t index, otx_worker *worker)
     return OSDTEX_OK;
 }
 
-static int
-compare_reals(const void *a, const void *b)
-{
-    const double p = *(const double *)a, q = *(const double *)b;
-
-    return p < q ? -1 : p > q;
-}
-
 /* The oddness of the last that counts. */
 static otx_status
 find_limit(otx_run *run, const contest *c, int32_t count, double *out)
@@ -221,7 +214,7 @@ find_limit(otx_run *run, const contest *c, int32_t count, double *out)
     if (!sorted)
         return otx_fail_memory(run, STAGE);
     memcpy(sorted, c->oddness, (size_t)count * sizeof *sorted);
-    qsort(sorted, (size_t)count, sizeof *sorted, compare_reals);
+    otx_sort_doubles(sorted, (size_t)count);
     *out = sorted[count / SHARE];
     return OSDTEX_OK;
 }

@@ -1,9 +1,10 @@
 /* vertex_check.c -- windows where four tiles meet, and elsewhere. */
 #include "tiling/vertex_check.h"
+
 #include "base/random.h"
+#include "base/sort.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 enum
 {
@@ -136,21 +137,13 @@ look_up(void *context, int64_t index, otx_worker *worker)
     return OSDTEX_OK;
 }
 
-static int
-compare_reals(const void *a, const void *b)
-{
-    const double p = *(const double *)a, q = *(const double *)b;
-
-    return p < q ? -1 : p > q;
-}
-
 /* Of those that are known. */
 static double
 median(double *values)
 {
     int32_t count = 0;
 
-    qsort(values, WINDOWS, sizeof *values, compare_reals);
+    otx_sort_doubles(values, WINDOWS);
     while (count < WINDOWS && values[count] < INFINITY)
         ++count;
     return count > 0 ? values[count / 2] : -1.0;
