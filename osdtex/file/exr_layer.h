@@ -7,7 +7,7 @@
 
 #include "base/run.h"
 
-#include <openexr.h>
+#include <OpenEXR/openexr.h>
 
 enum
 {
