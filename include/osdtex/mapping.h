@@ -32,7 +32,7 @@ typedef struct osdtex_map_options
     const osdtex_setting *settings; /* [setting_count], later ones win */
     int32_t setting_count;
     osdtex_index first_face; /* of the cage: where to begin; -1 free */
-    double first_u;          /* UV that the first patch's middle gets */
+    double first_u;          /* UV that the middle of that face gets */
     double first_v;
     double first_angle; /* radians, counter-clockwise in the picture */
     double scale;       /* width of the exemplar in scene units; 0:

@@ -45,8 +45,9 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "its name, as 'mask.<UDIM>.exr', a picture for each tile"},
     [OTX_FLAG_FIRST_PATCH] =
         {"first-patch", 0, OTX_FLAG_GROUP_MAIN, "FACE,U,V,ANGLE",
-         "begin at this face of the cage (0-based), its middle at U,V of the "
-         "exemplar, turned by ANGLE degrees; its direction spreads"},
+         "begin at this face of the cage (0-based): its middle at U,V of the "
+         "exemplar, its first edge at ANGLE degrees there; the direction "
+         "spreads"},
     [OTX_FLAG_CONSTRAINTS] =
         {"constraints", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "directions and sizes that the texture is to have at faces of the "

@@ -123,6 +123,12 @@ otx_method_map(
             "the method '%s' takes one exemplar; several are for the method "
             "'%s'",
             method->name, otx_method_at(0)->name);
+    if (request->first_face >= 0 && !method->begins)
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, "map", OTX_NOWHERE,
+            "the method '%s' has no first patch, and leaves it out; it is for "
+            "the method '%s'",
+            method->name, otx_method_at(0)->name);
     otx_map_stats_stage(stats, "prepare");
     OTX_TRY(method->map(run, surface, exemplar, request, settings, out, stats));
     otx_map_stats_stage(stats, NULL);

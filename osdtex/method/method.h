@@ -89,7 +89,8 @@ typedef struct otx_method
     const otx_option *options;
     int32_t option_count;
     size_t settings_bytes;
-    bool mixes; /* several exemplars */
+    bool mixes;  /* several exemplars */
+    bool begins; /* with the user's first patch */
     /* Replaces automatic settings by what they come to for an exemplar; they
      * stay as they are when called again. NULL: none are. */
     void (*resolve)(void *settings, const otx_exemplar *exemplar);

@@ -233,30 +233,9 @@ shift_inside(bool wraps, double size, double low, double high, double wanted)
                          : 0.5 * (least + most);
 }
 
-/* Direction in the chart of the first edge of the user's face, from its corner
- * 0 to its corner 1; 0 when the chart does not reach both. */
-static double
-first_heading(const otx_mapper *m, const otx_chart *chart)
-{
-    const otx_level *cage = &m->surface->levels[0];
-    const int32_t *ends =
-        cage->face_verts + cage->face_first[m->request->first_face];
-    int32_t found[2] = {-1, -1};
-    otx_vec2 edge;
-
-    for (int32_t v = chart->vert_count - 1; v >= 0; --v)
-        for (int k = 0; k < 2; ++k)
-            if (chart->verts[v] == ends[k])
-                found[k] = v;
-    if (found[0] < 0 || found[1] < 0)
-        return 0.0;
-    edge = otx_vec2_sub(chart->flat[found[1]], chart->flat[found[0]]);
-    return atan2(edge.y, edge.x);
-}
-
-/* The user's first patch: its middle at a given place, its face's first edge
- * turned as asked, or as near to there as it lies inside. False when it does
- * not fit so turned. */
+/* The user's first patch: the middle of its face at a given place, that face's
+ * first edge turned as asked, or as near to there as it lies inside. False when
+ * it does not fit so turned. */
 static bool
 place_first(
     const otx_mapper *m, const otx_node *node, const otx_vec2 *points,
@@ -266,8 +245,9 @@ place_first(
     const otx_exemplar *e = otx_supply_of(m, node)->exemplar;
     const otx_chart *chart = &node->chart;
     const double w = e->match.width, h = e->match.height;
-    const double angle = r->first_angle - first_heading(m, chart);
-    const otx_vec2 turn = otx_vec2_polar(angle), middle = core_middle(chart);
+    const double angle = r->first_angle - otx_first_heading(m, chart);
+    const otx_vec2 turn = otx_vec2_polar(angle);
+    const otx_vec2 middle = otx_first_middle(m, chart);
     const otx_vec2 target = {r->first_position.x * w, r->first_position.y * h};
     otx_vec2 shift = otx_vec2_sub(target, otx_vec2_mul(turn, middle));
     otx_vec2 low, high;
@@ -376,19 +356,6 @@ offer_continuation(
     *count = *count > 0 ? *count : 1;
 }
 
-static bool
-is_users_first(const otx_mapper *m, const otx_node *node)
-{
-    const int32_t face = m->request->first_face;
-
-    if (face < 0 || m->patch_count > 0)
-        return false;
-    for (int32_t i = 0; i < node->leaf_count; ++i)
-        if (m->leaves.level->face_cage[node->leaves[i]] == face)
-            return true;
-    return false;
-}
-
 /* Whether a patch's surroundings are wider than a search takes them: beside
  * faces of many pictures, as of a plain mesh and a small picture that tiles. */
 static bool
@@ -443,8 +410,8 @@ find_place(const otx_mapper *m, trial *t, otx_fit *fit)
     mask.triangles = triangles;
     goes_on = is_vast(m, node, &mask) &&
               reduce_vast(m, t, triangles, &mask, &best[0]);
-    fit->searched = mask.triangle_count > 0 && !is_users_first(m, node);
-    if (is_users_first(m, node))
+    fit->searched = mask.triangle_count > 0 && !otx_first_is(m, node);
+    if (otx_first_is(m, node))
         count = place_first(m, node, t->points, t->point_count, &best[0]);
     else if (fit->searched)
         OTX_TRY(search(m, t, &mask, best, &count));

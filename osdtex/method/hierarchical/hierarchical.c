@@ -99,20 +99,6 @@ fails_to_fit(otx_mapper *m, int32_t index)
         face);
 }
 
-/* The node that holds the cage face of the user's first patch; -1 none. */
-static int32_t
-users_first(const otx_mapper *m)
-{
-    const otx_level *leaf = m->leaves.level;
-
-    if (m->request->first_face < 0)
-        return -1;
-    for (int32_t f = 0; f < leaf->face_count; ++f)
-        if (leaf->face_cage[f] == m->request->first_face)
-            return m->leaf_node[f];
-    return -1;
-}
-
 /* Commits a wave in its order; what is not accepted is split. */
 static otx_status
 settle(otx_mapper *m, otx_queue *queue, const otx_fit *fits, int32_t count)
@@ -138,7 +124,7 @@ static otx_status
 fit_all(otx_mapper *m)
 {
     otx_queue queue = otx_queue_make(m->run->scratch);
-    const int32_t first = users_first(m);
+    const int32_t first = otx_first_node(m);
     otx_fit fits[OTX_WAVE_NODES];
     int32_t count;
 
@@ -152,7 +138,7 @@ fit_all(otx_mapper *m)
         OTX_TRY(settle(m, &queue, fits, count));
         /* The user's first patch was split: its part comes first. */
         if (first >= 0 && m->patch_count == 0 &&
-            !otx_queue_push(&queue, -INFINITY, users_first(m)))
+            !otx_queue_push(&queue, -INFINITY, otx_first_node(m)))
             return otx_fail_memory(m->run, "map");
         OTX_TRY(otx_progress(
             m->run, "fit", fmin(1.0, m->done_area / m->total_area)));
@@ -269,16 +255,17 @@ fill(
         stats);
 }
 
-/* A field for patches to follow, where the exemplar has a direction.
+/* A field for patches to follow, where exemplar k has a direction.
  *
  *   known  what the exemplar is taken for; NULL: it is analysed
  *   kind   out: its name */
 static otx_status
 make_guide(
     otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    const otx_map_request *request, const otx_analysis *known, otx_guide *guide,
-    const char **kind)
+    const otx_map_request *request, int32_t k, const otx_analysis *known,
+    otx_guide *guide, const char **kind)
 {
+    const otx_constraint_set *constraints;
     otx_analysis a;
 
     if (known)
@@ -294,7 +281,9 @@ make_guide(
         "the exemplar is %s, at %.0f degrees: patches follow a field of "
         "symmetry %d",
         otx_analysis_name(a.kind), a.angle * 180.0 / OTX_PI, (int)a.symmetry);
-    return otx_guide_make(run, surface, &a, request->constraints, guide);
+    OTX_TRY(
+        otx_first_constrain(run, surface, request, k, a.angle, &constraints));
+    return otx_guide_make(run, surface, &a, constraints, guide);
 }
 
 static otx_status
@@ -312,7 +301,7 @@ make_guides(
         return OSDTEX_OK;
     for (int32_t k = request->guide ? 1 : 0; k < count; ++k)
         OTX_TRY(make_guide(
-            run, surface, &exemplars[k], request,
+            run, surface, &exemplars[k], request, k,
             k == 0 ? request->analysis : NULL, &guides[k], &stats->classes[k]));
     return OSDTEX_OK;
 }
@@ -369,6 +358,7 @@ const otx_method otx_method_hierarchical = {
     .option_count = OTX_HIERARCHICAL_OPTION_COUNT,
     .settings_bytes = sizeof(otx_hierarchical_settings),
     .mixes = true,
+    .begins = true,
     .resolve = resolve,
     .map = map,
     .fill = fill,

@@ -169,6 +169,29 @@ float otx_supply_cost(const otx_mapper *m, const otx_node *node, int32_t face);
  * level where faces of that are divided. */
 otx_status otx_supply_regions(otx_mapper *m, int32_t level, otx_cluster *out);
 
+/* first.c: the user's first patch, which is said of a face of the cage. */
+/* The node that has that face; -1 none. */
+int32_t otx_first_node(const otx_mapper *m);
+/* Whether a node is to become it: it has of the face, and nothing is textured.
+ */
+bool otx_first_is(const otx_mapper *m, const otx_node *node);
+/* Whether a leaf is of that face and of that patch, which keeps it. */
+bool otx_first_holds(const otx_mapper *m, int32_t leaf);
+/* Of what the chart of that patch has of the face. */
+otx_vec2 otx_first_middle(const otx_mapper *m, const otx_chart *chart);
+/* Direction in the chart of the face's first edge, from its corner 0 to its
+ * corner 1; 0 when the chart does not reach both. */
+double otx_first_heading(const otx_mapper *m, const otx_chart *chart);
+/* The constraints with the direction of the first patch among them, so that a
+ * field which patches follow has it too: where the patch shows exemplar k and
+ * they say nothing of its face.
+ *
+ *   angle  of the exemplar, as of otx_guide
+ *   out    the request's own or a copy in run->arena; NULL none */
+otx_status otx_first_constrain(
+    otx_run *run, const otx_surface *surface, const otx_map_request *request,
+    int32_t k, double angle, const otx_constraint_set **out);
+
 /* nodes.c: clusters to start with, charts, splitting. */
 otx_status otx_nodes_start(otx_mapper *m);
 /* Clusters of the size of a patch of `supply` inside `region`, of dual's

@@ -39,7 +39,8 @@ offer_cost(const otx_mapper *m, const otx_node *node, int32_t i)
     const float foreign = otx_supply_cost(m, node, chart->faces[i]);
     double s[2], turn = 0.0;
 
-    if (foreign < 0.0f)
+    if (foreign < 0.0f ||
+        (node->patch != 0 && otx_first_holds(m, chart->faces[i])))
         return -1.0f;
     otx_chart_face_stretch(chart, m->surface, m->texels, i, s);
     if (i >= chart->core_count)

@@ -299,6 +299,55 @@ the_first_patch_is_where_the_user_wants_it(void **state)
     }
 }
 
+/* With all that the method does by default: patches are larger than the face,
+ * the field has ways of its own, and the cut would take what it likes. */
+static void
+a_face_is_where_the_user_wants_it_at_the_end(void **state)
+{
+    static const otx_analysis along = {
+        .kind = OTX_ANALYSIS_DIRECTIONAL, .symmetry = 2, .angle = 0.3};
+    enum
+    {
+        FACE = 20
+    };
+
+    (void)state;
+    for (int k = 0; k < 4; ++k)
+    {
+        job *j = make_job("creature", 2, 9.0, true);
+        const otx_level *leaf = otx_surface_leaf(j->surface);
+        const int32_t *ends =
+            j->surface->levels[0].face_verts + (size_t)4 * FACE;
+        const double angle = -1.0 + 0.8 * k;
+        otx_vec2 sum = {0, 0}, edge;
+        int32_t corners = 0, own = 0;
+
+        j->request.first_face = FACE;
+        j->request.first_position = (otx_vec2){0.3, 0.6};
+        j->request.first_angle = angle;
+        j->request.analysis = k < 2 ? &along : NULL;
+        assert_int_equal(map(j), OSDTEX_OK);
+        for (int32_t c = 0; c < leaf->corner_count; ++c)
+        {
+            if (leaf->face_cage[c / 4] != FACE)
+                continue;
+            own += j->mapping.face_patch[c / 4] == 0;
+            sum = otx_vec2_add(
+                sum,
+                (otx_vec2){j->mapping.uvs[2 * c], j->mapping.uvs[2 * c + 1]});
+            ++corners;
+        }
+        assert_int_equal(own, corners);
+        sum = otx_vec2_scale(1.0 / corners, sum);
+        assert_true(fabs(remainder(sum.x - 0.3, 1.0)) < 0.02);
+        assert_true(fabs(remainder(sum.y - 0.6, 1.0)) < 0.02);
+        edge = otx_vec2_sub(first_uv(j, ends[1]), first_uv(j, ends[0]));
+        assert_true(
+            fabs(remainder(atan2(edge.y, edge.x) - angle, 2.0 * OTX_PI)) < 0.1);
+        test_run_destroy(j->run);
+    }
+}
+
 /* Angle from the first edge of a leaf face on the plane z = 0 to the same edge
  * in the exemplar. */
 static double
@@ -537,6 +586,7 @@ main(void)
         cmocka_unit_test(the_same_bytes_from_any_number_of_threads),
         cmocka_unit_test(seeds_differ),
         cmocka_unit_test(the_first_patch_is_where_the_user_wants_it),
+        cmocka_unit_test(a_face_is_where_the_user_wants_it_at_the_end),
         cmocka_unit_test(the_first_direction_spreads),
         cmocka_unit_test(a_tiling_exemplar_does_not_continue_itself),
         cmocka_unit_test(no_place_near_the_border_is_left),
