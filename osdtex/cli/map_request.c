@@ -1,0 +1,326 @@
+/* map_request.c -- what osdtex map and osdtex bake are asked for: options, and
+ * the names of what is written. */
+#include "cli/map_request.h"
+
+#include "cli/bake_flags.h"
+#include "cli/bake_outputs.h"
+#include "cli/inputs.h"
+#include "cli/session.h"
+#include "cli/up_to_date.h"
+#include "cli/value.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define DEGREES (3.14159265358979323846 / 180.0)
+
+/* FOLDER/NAME of an OBJ and another end. */
+static bool
+name_beside(const char *obj, const char *suffix, char out[OTX_MAP_PATH_BYTES])
+{
+    const int base = (int)strlen(obj) - 4;
+
+    return snprintf(out, OTX_MAP_PATH_BYTES, "%.*s%s", base, obj, suffix) <
+           OTX_MAP_PATH_BYTES;
+}
+
+/* NAME.exr, or of several exemplars NAME_1.exr and so on. */
+static bool
+name_textures(otx_map_request *r)
+{
+    char suffix[32] = ".exr";
+
+    for (int k = 0; k <= r->also.count; ++k)
+    {
+        if (r->also.count > 0)
+            snprintf(suffix, sizeof suffix, "_%d.exr", k + 1);
+        if (!name_beside(r->mtl, suffix, r->exrs[k]))
+            return false;
+    }
+    return true;
+}
+
+/* NAME.mtl and NAME.exr beside NAME.obj, NAME_cage.obj and NAME_cage.mtl of a
+ * bake; blanks become `_` there, as readers split at them. */
+static bool
+name_outputs(otx_map_request *r)
+{
+    const char *path = r->values->text[OTX_FLAG_OUTPUT];
+    const size_t length = path ? strlen(path) : 0;
+    char *name;
+
+    if (!path || !otx_value_has_extension(path, ".obj") ||
+        path[length - 5] == '/' || length >= OTX_MAP_PATH_BYTES)
+    {
+        otx_session_refuse("the output is called NAME.obj: -o DIR/NAME.obj");
+        return false;
+    }
+    memcpy(r->obj, path, length + 1);
+    memcpy(r->mtl, path, length + 1);
+    name = strrchr(r->mtl, '/');
+    for (name = name ? name + 1 : r->mtl; *name; ++name)
+        if (*name == ' ')
+            *name = '_';
+    memcpy(r->mtl + length - 4, ".mtl", 5);
+    if (name_textures(r) && name_beside(r->mtl, "_cage.obj", r->cage_obj) &&
+        name_beside(r->mtl, "_cage.mtl", r->cage_mtl))
+        return true;
+    otx_session_refuse("'%s' is too long a name", path);
+    return false;
+}
+
+static bool
+is_picture(const char *path)
+{
+    return !path || otx_value_has_extension(path, ".png") ||
+           otx_value_has_extension(path, ".exr");
+}
+
+static bool
+same_file(const char *a, const char *b)
+{
+    struct stat first, second;
+
+    return a && b && stat(a, &first) == 0 && stat(b, &second) == 0 &&
+           first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+}
+
+/* An output must neither replace an input nor another output. */
+static bool
+outputs_are_apart(const otx_map_request *r)
+{
+    enum
+    {
+        INPUTS = OSDTEX_EXEMPLARS_MAX + 3,
+        OUTPUTS = OSDTEX_EXEMPLARS_MAX + 6
+    };
+    const char *inputs[INPUTS] = {
+        r->values->operands[0], r->values->operands[1],
+        r->values->text[OTX_FLAG_MASK], r->values->text[OTX_FLAG_CONSTRAINTS]};
+    const char *outputs[OUTPUTS] = {
+        r->maps ? r->obj : NULL,
+        r->maps ? r->mtl : NULL,
+        r->bakes ? r->cage_obj : NULL,
+        r->bakes ? r->cage_mtl : NULL,
+        r->preview,
+        r->report};
+
+    for (int k = 0; k < r->also.count; ++k)
+        inputs[4 + k] = r->also.files[k];
+    for (int k = 0; r->maps && k <= r->also.count; ++k)
+        outputs[6 + k] = r->exrs[k];
+    for (int i = 0; i < OUTPUTS; ++i)
+    {
+        for (int k = 0; outputs[i] && k < INPUTS; ++k)
+        {
+            if (!same_file(outputs[i], inputs[k]))
+                continue;
+            otx_session_refuse(
+                "'%s' is an input and would be replaced; choose another name "
+                "for the output",
+                outputs[i]);
+            return false;
+        }
+        for (int k = 0; outputs[i] && k < i; ++k)
+        {
+            if (!outputs[k] || strcmp(outputs[i], outputs[k]) != 0)
+                continue;
+            otx_session_refuse("'%s' would be written twice", outputs[i]);
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool
+folder_is_writable(const char *path)
+{
+    char folder[OTX_MAP_PATH_BYTES];
+    char *slash;
+
+    if (!path)
+        return true;
+    snprintf(folder, sizeof folder, "%s", path);
+    slash = strrchr(folder, '/');
+    if (!slash)
+        snprintf(folder, sizeof folder, ".");
+    else
+        slash[slash == folder] = '\0';
+    if (access(folder, W_OK | X_OK) == 0)
+        return true;
+    otx_session_refuse(
+        "'%s' cannot be written: its folder is not there or is read-only",
+        path);
+    return false;
+}
+
+static bool
+parse_numbers(otx_map_request *r)
+{
+    const char *level = r->values->text[OTX_FLAG_LEVEL];
+    const char *seed = r->values->text[OTX_FLAG_SEED];
+    int64_t number;
+
+    if (level && strcmp(level, "auto") != 0)
+    {
+        if (!otx_value_int(level, 0, OSDTEX_LEVEL_MAX, &number))
+        {
+            otx_session_refuse(
+                "--level takes a number from 0 to %d or auto, not '%s'",
+                OSDTEX_LEVEL_MAX, level);
+            return false;
+        }
+        r->surface_options.level = (int32_t)number;
+    }
+    r->map_options.scale = r->also.scale;
+    if (seed && !otx_value_int(seed, 0, INT64_MAX, &number))
+    {
+        otx_session_refuse("--seed takes a whole number, not '%s'", seed);
+        return false;
+    }
+    if (seed)
+        r->map_options.seed = (uint64_t)number;
+    return true;
+}
+
+/* --tile-level is a setting of the method, and the level of the surface where
+ * none is given. */
+static bool
+parse_tile_level(otx_map_request *r)
+{
+    const char *text = r->values->text[OTX_FLAG_TILE_LEVEL];
+    int64_t level;
+
+    memcpy(
+        r->settings, r->values->settings,
+        (size_t)r->values->setting_count * sizeof *r->settings);
+    r->map_options.settings = r->settings;
+    r->map_options.setting_count = r->values->setting_count;
+    if (!text)
+        return true;
+    if (!otx_value_int(text, 0, OSDTEX_LEVEL_MAX, &level))
+    {
+        otx_session_refuse(
+            "--tile-level takes a number from 0 to %d, not '%s'",
+            OSDTEX_LEVEL_MAX, text);
+        return false;
+    }
+    if (!r->values->text[OTX_FLAG_LEVEL])
+        r->surface_options.level = (int32_t)level;
+    r->settings[r->map_options.setting_count++] =
+        (osdtex_setting){"level", text};
+    return true;
+}
+
+static bool
+parse_fields(otx_map_request *r)
+{
+    const char *text = r->values->text[OTX_FLAG_GENERATORS];
+
+    r->map_options.mask = r->values->text[OTX_FLAG_MASK];
+    r->map_options.constraints = r->values->text[OTX_FLAG_CONSTRAINTS];
+    r->map_options.follow = r->values->text[OTX_FLAG_FOLLOW];
+    r->map_options.exemplar_class = r->values->text[OTX_FLAG_EXEMPLAR_CLASS];
+    if (!text || otx_value_reals(text, 4, r->map_options.generators))
+        return true;
+    otx_session_refuse("--generators takes X,Y,X,Y, not '%s'", text);
+    return false;
+}
+
+static bool
+parse_first_patch(otx_map_request *r)
+{
+    const char *text = r->values->text[OTX_FLAG_FIRST_PATCH];
+    double v[4];
+
+    if (!text)
+        return true;
+    if (!otx_value_reals(text, 4, v) || v[0] < 0.0 || v[0] > INT32_MAX ||
+        v[0] != floor(v[0]))
+    {
+        otx_session_refuse(
+            "--first-patch takes FACE,U,V,ANGLE, not '%s'", text);
+        return false;
+    }
+    r->map_options.first_face = (osdtex_index)v[0];
+    r->map_options.first_u = v[1];
+    r->map_options.first_v = v[2];
+    r->map_options.first_angle = v[3] * DEGREES;
+    return true;
+}
+
+/* Cage and exemplar are easily taken for each other. */
+static bool
+cage_comes_first(const otx_map_request *r)
+{
+    const char *cage = r->values->operands[0];
+
+    if (!otx_inputs_is_picture(cage))
+        return true;
+    otx_session_refuse(
+        "'%s' is a picture, where the cage, an OBJ, is expected: osdtex %s "
+        "CAGE.obj EXEMPLAR",
+        cage, r->maps ? "map" : "bake");
+    return false;
+}
+
+bool
+otx_map_request_parse(
+    const otx_flag_values *values, bool bake_only, otx_map_request *r)
+{
+    *r = (otx_map_request){
+        .values = values,
+        .maps = !bake_only,
+        .bakes = bake_only || values->text[OTX_FLAG_BAKE],
+    };
+    r->surface_options = osdtex_surface_options_default();
+    r->map_options = osdtex_map_options_default();
+    r->map_options.method = values->text[OTX_FLAG_METHOD];
+    r->preview = values->text[OTX_FLAG_PREVIEW];
+    r->report = values->text[OTX_FLAG_JSON_REPORT];
+    if (!otx_inputs_cage(values, &r->cage_options) ||
+        !otx_inputs_exemplar(values, &r->exemplar_options) ||
+        !otx_bake_flags_parse(values, &r->bake_options) ||
+        !otx_also_flags_parse(values, &r->also) || !name_outputs(r) ||
+        !parse_numbers(r) || !parse_tile_level(r) || !parse_first_patch(r) ||
+        !parse_fields(r))
+        return false;
+    if (!is_picture(r->preview))
+    {
+        otx_session_refuse(
+            "--preview writes a .png or .exr, not '%s'", r->preview);
+        return false;
+    }
+    return cage_comes_first(r) && outputs_are_apart(r);
+}
+
+bool
+otx_map_request_is_writable(const otx_map_request *r)
+{
+    return folder_is_writable(r->obj) && folder_is_writable(r->preview) &&
+           folder_is_writable(r->report);
+}
+
+static bool
+has_textures(const otx_map_request *r)
+{
+    for (int k = 0; k <= r->also.count; ++k)
+        if (access(r->exrs[k], F_OK) != 0)
+            return false;
+    return true;
+}
+
+bool
+otx_map_request_is_done(
+    const otx_map_request *r, const char hash[OSDTEX_HASH_BYTES])
+{
+    return (!r->maps || (otx_up_to_date_check(r->obj, hash) &&
+                         access(r->mtl, F_OK) == 0 && has_textures(r))) &&
+           (!r->bakes ||
+            otx_bake_outputs_are_done(r->cage_obj, &r->bake_options, hash)) &&
+           (!r->preview || access(r->preview, F_OK) == 0) &&
+           (!r->report || access(r->report, F_OK) == 0);
+}

@@ -1,0 +1,43 @@
+/* map_request.h -- what osdtex map and osdtex bake are asked for: options, and
+ * the names of what is written. */
+#ifndef OTX_CLI_MAP_REQUEST_H
+#define OTX_CLI_MAP_REQUEST_H
+
+#include "cli/also_flags.h"
+
+enum
+{
+    OTX_MAP_PATH_BYTES = 4096
+};
+
+/* Not to be moved: options point into it. */
+typedef struct otx_map_request
+{
+    const otx_flag_values *values;
+    osdtex_cage_options cage_options;
+    osdtex_exemplar_options exemplar_options;
+    osdtex_surface_options surface_options;
+    osdtex_map_options map_options;
+    otx_also_flags also;
+    osdtex_setting settings[OTX_FLAG_SETTINGS_MAX + 1];
+    osdtex_bake_options bake_options;
+    bool maps, bakes; /* which files are asked for */
+    char obj[OTX_MAP_PATH_BYTES], mtl[OTX_MAP_PATH_BYTES];
+    char exrs[OSDTEX_EXEMPLARS_MAX][OTX_MAP_PATH_BYTES]; /* "" none */
+    char cage_obj[OTX_MAP_PATH_BYTES], cage_mtl[OTX_MAP_PATH_BYTES];
+    const char *preview, *report; /* NULL none */
+} otx_map_request;
+
+/* False after saying what is wrong. Borrows the values. */
+bool otx_map_request_parse(
+    const otx_flag_values *values, bool bake_only, otx_map_request *out);
+
+/* Whether the folders of all outputs can be written to: better said before a
+ * long job than after it. False after saying which one cannot. */
+bool otx_map_request_is_writable(const otx_map_request *request);
+
+/* Whether all outputs are there, of the job with this hash. */
+bool otx_map_request_is_done(
+    const otx_map_request *request, const char hash[OSDTEX_HASH_BYTES]);
+
+#endif
