@@ -6,6 +6,8 @@
  * survive a longjmp is in `reader`. */
 #include "file/jpeg_file.h"
 
+#include "file/exif.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,7 +22,9 @@ enum
     /* A progressive file may repeat scans at almost no cost in bytes and full
      * cost in time; honest files have about ten. */
     MAX_SCANS = 200,
-    ROWS_AT_ONCE = 1
+    ROWS_AT_ONCE = 1,
+    EXIF_MARKER = JPEG_APP0 + 1,
+    MARKER_BYTES_MAX = 0xFFFF
 };
 
 typedef struct reader
@@ -100,7 +104,23 @@ reader_header(reader *r)
     r->created = true;
     r->jpeg.progress = &r->progress;
     jpeg_stdio_src(&r->jpeg, r->file);
+    jpeg_save_markers(&r->jpeg, EXIF_MARKER, MARKER_BYTES_MAX);
     jpeg_read_header(&r->jpeg, TRUE);
+    return 1;
+}
+
+/* The first marker that holds EXIF, behind a name of six bytes. */
+static int32_t
+orientation_of(const reader *r)
+{
+    static const char name[] = "Exif\0";
+
+    for (const struct jpeg_marker_struct *m = r->jpeg.marker_list; m;
+         m = m->next)
+        if (m->marker == EXIF_MARKER && m->data_length >= sizeof name &&
+            memcmp(m->data, name, sizeof name) == 0)
+            return otx_exif_orientation(
+                m->data + sizeof name, m->data_length - sizeof name);
     return 1;
 }
 
@@ -187,6 +207,7 @@ otx_jpeg_file_read(otx_run *run, const char *path, otx_picture *out)
             r->jpeg.num_components);
     OTX_TRY(otx_picture_create(
         run, path, r->jpeg.image_width, r->jpeg.image_height, 3, out));
+    otx_exif_note_orientation(run, path, "JPEG", orientation_of(r));
     out->bits = 8;
     out->is_gray = r->jpeg.num_components == 1;
     r->row = OTX_NEW(run->scratch, JSAMPLE, (size_t)out->image.width * 3);

@@ -6,6 +6,8 @@
  * that is set before setjmp and never changed after. */
 #include "file/png_file.h"
 
+#include "file/exif.h"
+
 #include "file/atomic_file.h"
 
 #include <errno.h>
@@ -95,6 +97,17 @@ reader_metadata(reader *r)
     if (png_get_gAMA(r->png, r->info, &gamma) != 0)
         out->gamma = (float)gamma;
     out->has_icc_profile = png_get_valid(r->png, r->info, PNG_INFO_iCCP) != 0;
+}
+
+static int32_t
+orientation_of(const reader *r)
+{
+    png_uint_32 count = 0;
+    png_bytep exif = NULL;
+
+    return png_get_eXIf_1(r->png, r->info, &count, &exif) != 0
+               ? otx_exif_orientation(exif, count)
+               : 1;
 }
 
 /* Header and transformations. Zero when libpng jumped out. */
@@ -205,6 +218,7 @@ otx_png_file_read(otx_run *run, const char *path, otx_picture *out)
         run, path, png_get_image_width(r->png, r->info),
         png_get_image_height(r->png, r->info), 3 + (r->channels % 2 == 0),
         out));
+    otx_exif_note_orientation(run, path, "PNG", orientation_of(r));
     out->is_gray = r->channels < 3;
     OTX_TRY(read_pixels(r));
     if (r->warning[0] != '\0')

@@ -7,6 +7,8 @@
  * are never reached. */
 #include "file/tiff_file.h"
 
+#include "file/exif.h"
+
 /* The table of the C++ library is not linked. */
 #define IMATH_HALF_NO_LOOKUP_TABLE
 #include <Imath/half.h>
@@ -168,12 +170,7 @@ note_orientation(const reader *r)
     uint16_t orientation = ORIENTATION_TOPLEFT;
 
     TIFFGetFieldDefaulted(r->tiff, TIFFTAG_ORIENTATION, &orientation);
-    if (orientation != ORIENTATION_TOPLEFT)
-        otx_note(
-            r->run, OSDTEX_SEVERITY_WARNING, "picture", otx_where_file(r->path),
-            "the TIFF asks viewers to turn or mirror it (orientation %d); the "
-            "pixels are taken as stored",
-            orientation);
+    otx_exif_note_orientation(r->run, r->path, "TIFF", orientation);
 }
 
 static bool

@@ -15,6 +15,7 @@ typedef struct jpeg_kind
     J_COLOR_SPACE space;
     int components;
     bool progressive;
+    int orientation; /* of EXIF; 0 none */
 } jpeg_kind;
 
 /* A smooth ramp, which JPEG keeps nearly as it is. */
@@ -22,6 +23,15 @@ static int
 ramp(int x, int y_down, int c)
 {
     return c == 0 ? 6 * x : c == 1 ? 10 * y_down : 100;
+}
+
+static void
+write_exif(struct jpeg_compress_struct *jpeg, int orientation)
+{
+    JOCTET bytes[] = "Exif\0\0II*\0\10\0\0\0\1\0\22\1\3\0\1\0\0\0?\0\0\0\0\0\0";
+
+    bytes[24] = (JOCTET)orientation;
+    jpeg_write_marker(jpeg, JPEG_APP0 + 1, bytes, sizeof bytes);
 }
 
 static void
@@ -46,6 +56,8 @@ write_jpeg(const char *path, jpeg_kind kind)
     if (kind.progressive)
         jpeg_simple_progression(&jpeg);
     jpeg_start_compress(&jpeg, TRUE);
+    if (kind.orientation > 0)
+        write_exif(&jpeg, kind.orientation);
     for (int y = 0; y < HEIGHT; ++y)
     {
         JSAMPLE row[WIDTH * 4];
@@ -64,7 +76,9 @@ static void
 test_ramps_come_back(void **state)
 {
     const jpeg_kind kinds[] = {
-        {JCS_GRAYSCALE, 1, false}, {JCS_RGB, 3, false}, {JCS_RGB, 3, true}};
+        {JCS_GRAYSCALE, 1, false, 0},
+        {JCS_RGB, 3, false, 0},
+        {JCS_RGB, 3, true, 0}};
     otx_run *run = test_run_create();
     const test_folder folder = test_folder_create();
     const char *path = test_path(&folder, "a.jpg");
@@ -100,10 +114,30 @@ test_cmyk_is_not_read(void **state)
     otx_picture picture;
 
     (void)state;
-    write_jpeg(path, (jpeg_kind){JCS_CMYK, 4, false});
+    write_jpeg(path, (jpeg_kind){JCS_CMYK, 4, false, 0});
     assert_int_equal(
         otx_picture_read(run, path, &picture), OSDTEX_ERROR_SUPPORT);
     assert_non_null(strstr(test_last_message(run), "CMYK"));
+    test_folder_remove(&folder);
+    test_run_destroy(run);
+}
+
+static void
+test_orientation_is_told(void **state)
+{
+    otx_run *run = test_run_create();
+    const test_folder folder = test_folder_create();
+    const char *path = test_path(&folder, "a.jpg");
+
+    (void)state;
+    write_jpeg(path, (jpeg_kind){JCS_RGB, 3, false, 1});
+    test_read(run, path);
+    assert_int_equal(otx_diagnostics_count(run->diagnostics), 0);
+    write_jpeg(path, (jpeg_kind){JCS_RGB, 3, false, 6});
+    test_read(run, path);
+    assert_non_null(strstr(
+        test_last_message(run),
+        "the JPEG asks viewers to turn or mirror it (orientation 6)"));
     test_folder_remove(&folder);
     test_run_destroy(run);
 }
@@ -119,7 +153,7 @@ test_cut_files_are_refused(void **state)
     (void)state;
     for (int progressive = 0; progressive < 2; ++progressive)
     {
-        write_jpeg(path, (jpeg_kind){JCS_RGB, 3, progressive});
+        write_jpeg(path, (jpeg_kind){JCS_RGB, 3, progressive, 0});
         test_prefixes_fail(run, &folder, path, 0);
     }
     test_folder_remove(&folder);
@@ -131,6 +165,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ramps_come_back),
+        cmocka_unit_test(test_orientation_is_told),
         cmocka_unit_test(test_cmyk_is_not_read),
         cmocka_unit_test(test_cut_files_are_refused),
     };
