@@ -16,7 +16,8 @@ enum
 {
     LEAF_TEXELS = 10,
     EXEMPLAR = 256,
-    MOST_TURNS = 99
+    MOST_TURNS = 99,
+    STAGE_COUNT = 7
 };
 
 /* -- cages --------------------------------------------------------------- */
@@ -60,16 +61,53 @@ by_wall(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The median of `repeat` jobs, by wall time. */
-static otx_status
-run_median(const bench_map_job *job, int32_t repeat, bench_map_result *out)
+/* One job on one thread and on those of the options. */
+typedef struct timing
 {
-    bench_map_result turns[MOST_TURNS];
+    const char *label;
+    bench_map_result median[2];  /* by wall time */
+    double best[2][STAGE_COUNT]; /* wall seconds of stages, least */
+} timing;
+
+/* Refinement, the stages of the mapping, and the whole. */
+static const char *const STAGES[STAGE_COUNT] = {
+    "refine", "prepare", "flatten", "fit", "cut", "relax", "all"};
+
+static double
+stage_seconds(const bench_map_result *r, int32_t stage)
+{
+    if (stage == 0)
+        return r->refine;
+    return stage + 1 == STAGE_COUNT ? r->whole.wall
+                                    : bench_map_job_stage(r, STAGES[stage]);
+}
+
+/* `repeat` jobs by turns on one thread and on several, where there are. */
+static otx_status
+run_turns(const bench_map_job *template, int32_t repeat, timing *out)
+{
+    const int lanes = template->options->threads > 1 ? 2 : 1;
+    bench_map_result turns[2][MOST_TURNS];
+    bench_map_job job = *template;
 
     for (int32_t r = 0; r < repeat; ++r)
-        OTX_TRY(bench_map_job_run(job, &turns[r]));
-    qsort(turns, (size_t)repeat, sizeof *turns, by_wall);
-    *out = turns[repeat / 2];
+        for (int l = 0; l < lanes; ++l)
+        {
+            job.threads = l == 0 ? 1 : job.options->threads;
+            OTX_TRY(bench_map_job_run(&job, &turns[l][r]));
+        }
+    for (int l = 0; l < lanes; ++l)
+    {
+        for (int32_t s = 0; s < STAGE_COUNT; ++s)
+        {
+            out->best[l][s] = stage_seconds(&turns[l][0], s);
+            for (int32_t r = 1; r < repeat; ++r)
+                out->best[l][s] =
+                    fmin(out->best[l][s], stage_seconds(&turns[l][r], s));
+        }
+        qsort(turns[l], (size_t)repeat, sizeof *turns[l], by_wall);
+        out->median[l] = turns[l][repeat / 2];
+    }
     return OSDTEX_OK;
 }
 
@@ -80,7 +118,7 @@ static const char *const COLUMNS[] = {
 
 static void
 write_row(
-    bench_report *report, const char *label, const bench_map_job *job,
+    bench_report *report, const char *label, int32_t threads,
     const bench_map_result *r)
 {
     const double faces = r->leaf_faces;
@@ -88,7 +126,7 @@ write_row(
         faces,
         r->patch_count,
         r->stats.fit_count,
-        job->threads,
+        threads,
         r->whole.wall,
         r->whole.cpu,
         1e6 * r->whole.cpu / faces,
@@ -108,22 +146,43 @@ write_row(
 /* One thread, then those of the options. */
 static bool
 time_job(
-    const char *label, const bench_map_job *template, int32_t repeat,
+    const char *label, const bench_map_job *job, int32_t repeat,
+    bench_report *report, timing *out)
+{
+    const int32_t threads = job->options->threads;
+
+    out->label = label;
+    if (run_turns(job, repeat, out) != OSDTEX_OK)
+        return false;
+    write_row(report, label, 1, &out->median[0]);
+    if (threads > 1)
+        write_row(report, label, threads, &out->median[1]);
+    return true;
+}
+
+/* How much faster each stage is on several threads. */
+static void
+write_ratios(
+    const bench_options *options, const timing *timings, int32_t count,
     bench_report *report)
 {
-    bench_map_job job = *template;
-    bench_map_result result;
+    static const char *const columns[] = {
+        "stage", "1 thread", "several", "ratio", NULL};
+    char text[96];
 
-    for (int turn = 0; turn < 2; ++turn)
-    {
-        job.threads = turn == 0 ? 1 : job.options->threads;
-        if (turn == 1 && job.threads == 1)
-            break;
-        if (run_median(&job, repeat, &result) != OSDTEX_OK)
-            return false;
-        write_row(report, label, &job, &result);
-    }
-    return true;
+    snprintf(
+        text, sizeof text, "threads: wall seconds on 1 and on %d, best turns",
+        (int)options->threads);
+    bench_report_begin(report, text, columns);
+    for (int32_t k = 0; k < count; ++k)
+        for (int32_t s = 0; s < STAGE_COUNT; ++s)
+        {
+            const double *one = timings[k].best[0], *more = timings[k].best[1];
+            const double values[] = {one[s], more[s], one[s] / more[s]};
+
+            snprintf(text, sizeof text, "%s, %s", timings[k].label, STAGES[s]);
+            bench_report_row(report, text, values);
+        }
 }
 
 /* The user's cage as the program would map it without --level and --scale. */
@@ -158,6 +217,9 @@ time_map(const bench_options *options, bench_report *report)
         .exemplar_size = EXEMPLAR};
     const bench_map_job own = own_job(options);
     bench_map_job large = octopus;
+    timing timings[4];
+    int32_t count = 0;
+    bool right;
 
     large.exemplar_size = 2 * EXEMPLAR;
     bench_report_begin(
@@ -165,15 +227,21 @@ time_map(const bench_options *options, bench_report *report)
         "map: refinement and mapping, exemplar 256 x 256, octopus also 512 x "
         "512; stages are wall seconds (median job)",
         COLUMNS);
-    return time_job("sphere", &sphere, repeat, report) &&
-           time_job("octopus", &octopus, repeat, report) &&
-           time_job("octopus, 512", &large, repeat, report) &&
-           (!options->cage || time_job("own", &own, repeat, report));
+    right =
+        time_job("sphere", &sphere, repeat, report, &timings[count++]) &&
+        time_job("octopus", &octopus, repeat, report, &timings[count++]) &&
+        time_job("octopus, 512", &large, repeat, report, &timings[count++]) &&
+        (!options->cage ||
+         time_job("own", &own, repeat, report, &timings[count++]));
+    if (right && options->threads > 1)
+        write_ratios(options, timings, count, report);
+    return right;
 }
 
 static bool
 time_growth(const bench_options *options, bench_report *report)
 {
+    timing unused;
     bool right = true;
 
     bench_report_begin(
@@ -187,8 +255,9 @@ time_growth(const bench_options *options, bench_report *report)
             .leaf = LEAF_TEXELS,
             .exemplar_size = EXEMPLAR};
 
-        right = right &&
-                time_job("sphere", &job, bench_row_repeat(options, 1), report);
+        right = right && time_job(
+                             "sphere", &job, bench_row_repeat(options, 1),
+                             report, &unused);
     }
     return right;
 }
