@@ -1,4 +1,9 @@
-/* pool.c -- POSIX threads, one condition to start a loop and one to end it. */
+/* pool.c -- POSIX threads that look for open loops.
+ *
+ * A loop lies on the stack of who runs it and is in a list, oldest first, while
+ * others may join: those without anything to do take what was opened first,
+ * which is the coarsest. Who waits for the end of a loop of the pool, or for
+ * its turn in one, helps with loops that were opened inside. */
 #include "base/pool.h"
 
 #include <pthread.h>
@@ -10,6 +15,21 @@ enum
 {
     MAX_THREADS = 256
 };
+
+typedef struct loop
+{
+    otx_pool_body body;
+    void *context;
+    int64_t end;
+    _Atomic int64_t next;
+    const otx_pool_order *order; /* NULL: any */
+    uint8_t *done;               /* [end] of what has an order */
+    bool inner;                  /* opened from within a body */
+    int32_t busy;                /* threads that joined */
+    int64_t failed_index;
+    otx_status failure;
+    struct loop *newer;
+} loop;
 
 typedef struct thread
 {
@@ -26,30 +46,101 @@ struct otx_pool
     thread threads[MAX_THREADS];
 
     pthread_mutex_t mutex;
-    pthread_cond_t work;
-    pthread_cond_t done;
-    uint64_t generation; /* of the current loop */
-    bool open;           /* a thread that wakes may still join it */
-    int32_t busy;        /* threads that did, the caller left out */
+    pthread_cond_t work; /* a loop was opened */
+    pthread_cond_t done; /* something ended that others wait for */
+    loop *open;          /* oldest first */
+    int32_t waiting;     /* for `done`, willing to help */
     bool quit;
-
-    otx_pool_body body;
-    void *context;
-    int64_t count;
-    _Atomic int64_t next;
-    int64_t failed_index;
-    otx_status failure;
 };
 
+/* -- indices, under the lock or not as each says -------------------------- */
+
 static void
-record_failure(otx_pool *pool, int64_t index, otx_status status)
+record_failure(otx_pool *pool, loop *l, int64_t index, otx_status status)
+{
+    if (pool)
+        pthread_mutex_lock(&pool->mutex);
+    if (index < l->failed_index)
+    {
+        l->failed_index = index;
+        l->failure = status;
+    }
+    if (pool)
+        pthread_mutex_unlock(&pool->mutex);
+}
+
+/* A loop with indices left, NULL none. Under the lock. */
+static loop *
+find_open(const otx_pool *pool, bool inner)
+{
+    loop *l = pool->open;
+
+    while (l && ((inner && !l->inner) || atomic_load(&l->next) >= l->end))
+        l = l->newer;
+    return l;
+}
+
+static void take_indices(loop *l, otx_worker *worker);
+
+/* Joins a loop until nothing is left of it. Under the lock, let go meanwhile.
+ */
+static void
+join(otx_pool *pool, loop *l, otx_worker *worker)
+{
+    ++l->busy;
+    pthread_mutex_unlock(&pool->mutex);
+    take_indices(l, worker);
+    pthread_mutex_lock(&pool->mutex);
+    if (--l->busy == 0)
+        pthread_cond_broadcast(&pool->done);
+}
+
+/* Helps with an inner loop, or waits until something ends or opens. Under the
+ * lock. */
+static void
+help_or_wait(otx_pool *pool, otx_worker *worker)
+{
+    loop *l = find_open(pool, true);
+
+    if (l)
+    {
+        join(pool, l, worker);
+        return;
+    }
+    ++pool->waiting;
+    pthread_cond_wait(&pool->done, &pool->mutex);
+    --pool->waiting;
+}
+
+static bool
+is_turn(const loop *l, int64_t index)
+{
+    const otx_pool_order *o = l->order;
+
+    for (int32_t i = o->first[index]; i < o->first[index + 1]; ++i)
+        if (!l->done[o->before[i]])
+            return false;
+    return true;
+}
+
+/* What comes before has a lower index, so it was taken before. */
+static void
+wait_for_turn(loop *l, int64_t index, otx_worker *worker)
+{
+    otx_pool *pool = worker->pool;
+
+    pthread_mutex_lock(&pool->mutex);
+    while (!is_turn(l, index))
+        help_or_wait(pool, worker);
+    pthread_mutex_unlock(&pool->mutex);
+}
+
+static void
+mark_done(loop *l, int64_t index, otx_pool *pool)
 {
     pthread_mutex_lock(&pool->mutex);
-    if (index < pool->failed_index)
-    {
-        pool->failed_index = index;
-        pool->failure = status;
-    }
+    l->done[index] = 1;
+    pthread_cond_broadcast(&pool->done);
     pthread_mutex_unlock(&pool->mutex);
 }
 
@@ -57,44 +148,145 @@ record_failure(otx_pool *pool, int64_t index, otx_status status)
  * have stopped a sequential loop: the lowest failure must be found whatever
  * the order, and failures are rare. */
 static void
-take_indices(otx_pool *pool, otx_worker *worker)
+take_indices(loop *l, otx_worker *worker)
 {
     int64_t index;
 
-    while ((index = atomic_fetch_add(&pool->next, 1)) < pool->count)
+    while ((index = atomic_fetch_add(&l->next, 1)) < l->end)
     {
         const otx_arena_mark mark = otx_arena_here(worker->scratch);
-        const otx_status status = pool->body(pool->context, index, worker);
+        otx_status status;
 
+        if (l->order)
+            wait_for_turn(l, index, worker);
+        status = l->body(l->context, index, worker);
         otx_arena_release(worker->scratch, mark);
         if (status != OSDTEX_OK)
-            record_failure(pool, index, status);
+            record_failure(worker->pool, l, index, status);
+        if (l->order)
+            mark_done(l, index, worker->pool);
     }
 }
+
+/* -- loops --------------------------------------------------------------- */
+
+static void
+open_loop(otx_pool *pool, loop *l)
+{
+    loop **at = &pool->open;
+
+    pthread_mutex_lock(&pool->mutex);
+    while (*at)
+        at = &(*at)->newer;
+    *at = l;
+    pthread_cond_broadcast(&pool->work);
+    if (l->inner && pool->waiting > 0)
+        pthread_cond_broadcast(&pool->done);
+    pthread_mutex_unlock(&pool->mutex);
+}
+
+/* Waits for those who joined. A thread that has not woken by now, because it is
+ * a short loop or a busy machine, is not waited for. */
+static void
+close_loop(otx_pool *pool, loop *l, otx_worker *worker)
+{
+    loop **at = &pool->open;
+
+    pthread_mutex_lock(&pool->mutex);
+    while (*at != l)
+        at = &(*at)->newer;
+    *at = l->newer;
+    while (l->busy > 0)
+        if (l->inner)
+            pthread_cond_wait(&pool->done, &pool->mutex);
+        else
+            help_or_wait(pool, worker);
+    pthread_mutex_unlock(&pool->mutex);
+}
+
+static otx_status
+run_loop(loop *l, otx_worker *worker)
+{
+    otx_pool *pool = worker->pool;
+    const bool shared =
+        pool && pool->started > 0 && l->end - atomic_load(&l->next) > 1;
+
+    if (shared)
+        open_loop(pool, l);
+    take_indices(l, worker);
+    if (shared)
+        close_loop(pool, l, worker);
+    return l->failure;
+}
+
+otx_status
+otx_pool_for(otx_pool *pool, int64_t count, otx_pool_body body, void *context)
+{
+    loop l = {
+        .body = body,
+        .context = context,
+        .end = count,
+        .failed_index = INT64_MAX};
+
+    return run_loop(&l, &pool->threads[0].worker);
+}
+
+otx_status
+otx_pool_share(
+    otx_worker *worker, int64_t count, otx_pool_body body, void *context)
+{
+    loop l = {
+        .body = body,
+        .context = context,
+        .end = count,
+        .inner = true,
+        .failed_index = INT64_MAX};
+
+    return run_loop(&l, worker);
+}
+
+otx_status
+otx_pool_for_ordered(
+    otx_pool *pool, const otx_pool_order *order, int64_t first, int64_t end,
+    otx_pool_body body, void *context)
+{
+    otx_worker *worker = &pool->threads[0].worker;
+    const otx_arena_mark mark = otx_arena_here(worker->scratch);
+    loop l = {
+        .body = body,
+        .context = context,
+        .end = end,
+        .order = order,
+        .done = OTX_ZNEW(worker->scratch, uint8_t, end),
+        .failed_index = INT64_MAX};
+    otx_status status;
+
+    if (!l.done)
+        return OSDTEX_ERROR_MEMORY;
+    memset(l.done, 1, (size_t)first);
+    atomic_store(&l.next, first);
+    status = run_loop(&l, worker);
+    otx_arena_release(worker->scratch, mark);
+    return status;
+}
+
+/* -- threads ------------------------------------------------------------- */
 
 static void *
 thread_main(void *argument)
 {
     thread *self = argument;
     otx_pool *pool = self->pool;
-    uint64_t seen = 0;
 
     pthread_mutex_lock(&pool->mutex);
-    for (;;)
+    while (!pool->quit)
     {
-        while (!pool->quit && pool->generation == seen)
+        loop *l = find_open(pool, false);
+
+        if (l)
+            join(pool, l, &self->worker);
+        else
             pthread_cond_wait(&pool->work, &pool->mutex);
-        if (pool->quit)
-            break;
-        seen = pool->generation;
-        if (!pool->open)
-            continue;
-        ++pool->busy;
-        pthread_mutex_unlock(&pool->mutex);
-        take_indices(pool, &self->worker);
-        pthread_mutex_lock(&pool->mutex);
-        if (--pool->busy == 0)
-            pthread_cond_signal(&pool->done);
     }
     pthread_mutex_unlock(&pool->mutex);
     return NULL;
@@ -109,6 +301,7 @@ start_threads(otx_pool *pool)
 
         t->pool = pool;
         t->worker.index = i;
+        t->worker.pool = pool;
         t->worker.scratch = otx_arena_create(pool->heap);
         if (!t->worker.scratch)
             return false;
@@ -171,32 +364,4 @@ int32_t
 otx_pool_threads(const otx_pool *pool)
 {
     return pool->thread_count;
-}
-
-otx_status
-otx_pool_for(otx_pool *pool, int64_t count, otx_pool_body body, void *context)
-{
-    pthread_mutex_lock(&pool->mutex);
-    pool->body = body;
-    pool->context = context;
-    pool->count = count;
-    atomic_store(&pool->next, 0);
-    pool->failed_index = INT64_MAX;
-    pool->failure = OSDTEX_OK;
-    pool->open = count > 1;
-    ++pool->generation;
-    if (pool->open)
-        pthread_cond_broadcast(&pool->work);
-    pthread_mutex_unlock(&pool->mutex);
-
-    take_indices(pool, &pool->threads[0].worker);
-
-    /* All indices are taken. A thread that has not woken by now, because it is
-     * a short loop or a busy machine, is not waited for. */
-    pthread_mutex_lock(&pool->mutex);
-    pool->open = false;
-    while (pool->busy > 0)
-        pthread_cond_wait(&pool->done, &pool->mutex);
-    pthread_mutex_unlock(&pool->mutex);
-    return pool->failure;
 }

@@ -11,10 +11,12 @@
 
 typedef struct otx_pool otx_pool;
 
-/* One thread of the pool. Its scratch arena is released after every index. */
+/* One thread of the pool. After every index its scratch arena is as it was
+ * before. */
 typedef struct otx_worker
 {
-    int32_t index; /* [0, otx_pool_threads) */
+    otx_pool *pool; /* NULL: a thread by itself */
+    int32_t index;  /* [0, otx_pool_threads) */
     otx_arena *scratch;
 } otx_worker;
 
@@ -28,9 +30,27 @@ void otx_pool_destroy(otx_pool *pool);
 int32_t otx_pool_threads(const otx_pool *pool);
 
 /* Runs body(context, i, worker) for every i in [0, count). Waits for all.
- * Returns the failure of the lowest failing index. Not re-entrant: a body must
- * not call it. */
+ * Returns the failure of the lowest failing index. A body must not call it. */
 otx_status
 otx_pool_for(otx_pool *pool, int64_t count, otx_pool_body body, void *context);
+
+/* The same from within a body, with the worker that it was given: threads that
+ * have run out of other indices help. For bodies that are few and long. */
+otx_status otx_pool_share(
+    otx_worker *worker, int64_t count, otx_pool_body body, void *context);
+
+/* Which indices must have run before others: of index i the ones in
+ * before[first[i]] to before[first[i + 1]], all below i. */
+typedef struct otx_pool_order
+{
+    const int32_t *first;
+    const int32_t *before;
+} otx_pool_order;
+
+/* otx_pool_for of the indices [first, end) in an order; those below `first`
+ * have run. MEMORY besides. */
+otx_status otx_pool_for_ordered(
+    otx_pool *pool, const otx_pool_order *order, int64_t first, int64_t end,
+    otx_pool_body body, void *context);
 
 #endif

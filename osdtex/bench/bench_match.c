@@ -101,6 +101,7 @@ run_fit(void *context)
     bench_match_scene *s = f->scene;
     otx_match_query query =
         otx_match_query_defaults(s->angles, BENCH_ORIENTATIONS);
+    otx_worker alone = {.scratch = s->run.scratch};
     int32_t count = 0;
 
     query.coarse_levels = f->levels;
@@ -108,9 +109,8 @@ run_fit(void *context)
         f->threads
             ? otx_matcher_search(
                   &s->run, s->matcher, &s->mask, &query, &f->best, 1, &count)
-            : otx_matcher_search_serial(
-                  s->run.scratch, s->matcher, &s->mask, &query, &f->best, 1,
-                  &count));
+            : otx_matcher_search_within(
+                  &alone, s->matcher, &s->mask, &query, &f->best, 1, &count));
     return count == 1 ? OSDTEX_OK : OSDTEX_ERROR_NUMERIC;
 }
 

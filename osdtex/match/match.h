@@ -133,10 +133,13 @@ otx_status otx_matcher_search(
     const otx_match_query *query, otx_match *best, int32_t capacity,
     int32_t *count);
 
-/* The same, to the bit, within one thread: for callers that fit several
- * patches at once. Reports nothing; memory from `scratch`, released again. */
-otx_status otx_matcher_search_serial(
-    otx_arena *scratch, const otx_matcher *matcher, const otx_mask *mask,
+/* The same, to the bit, within a loop of the pool: for callers that fit several
+ * patches at once. Reports nothing.
+ *
+ *   worker  of the loop, with memory for what is released again; without a
+ *           pool all is done in this thread */
+otx_status otx_matcher_search_within(
+    otx_worker *worker, const otx_matcher *matcher, const otx_mask *mask,
     const otx_match_query *query, otx_match *best, int32_t capacity,
     int32_t *count);
 

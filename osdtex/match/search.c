@@ -36,7 +36,8 @@ typedef struct search
     const otx_matcher *matcher;
     const otx_mask *mask;
     const otx_match_query *query;
-    otx_pool *pool; /* NULL: in this thread */
+    otx_worker *worker; /* of the loop that this is in; NULL: all of `pool` */
+    otx_pool *pool;     /* NULL: in this thread */
     otx_arena *scratch;
     int32_t level;
 
@@ -50,19 +51,8 @@ typedef struct search
 static otx_status
 for_each(search *s, int64_t count, otx_pool_body body)
 {
-    otx_worker worker = {.index = 0, .scratch = s->scratch};
-
-    if (s->pool)
-        return otx_pool_for(s->pool, count, body, s);
-    for (int64_t i = 0; i < count; ++i)
-    {
-        const otx_arena_mark mark = otx_arena_here(s->scratch);
-        const otx_status status = body(s, i, &worker);
-
-        otx_arena_release(s->scratch, mark);
-        OTX_TRY(status);
-    }
-    return OSDTEX_OK;
+    return s->worker ? otx_pool_share(s->worker, count, body, s)
+                     : otx_pool_for(s->pool, count, body, s);
 }
 
 /* --------------------------------------------------------------- coarse */
@@ -76,12 +66,14 @@ search_lane(void *context, int64_t lane, otx_worker *worker)
 {
     search *s = context;
     otx_exhaust_buffers buffers;
-    int32_t angle;
+    int32_t angle = atomic_fetch_add(&s->next_angle, 1);
 
+    if (angle >= s->query->angle_count)
+        return OSDTEX_OK;
     OTX_TRY(otx_exhaust_buffers_create(
         worker->scratch, &s->matcher->planes[s->level], &buffers));
-    while ((angle = atomic_fetch_add(&s->next_angle, 1)) <
-           s->query->angle_count)
+    for (; angle < s->query->angle_count;
+         angle = atomic_fetch_add(&s->next_angle, 1))
         otx_exhaust_angle(
             s->matcher, s->level, s->mask, s->query, angle, &buffers,
             &s->lane_peaks[lane]);
@@ -415,13 +407,18 @@ search_all(search *s, otx_match *best, int32_t capacity, int32_t *count)
 }
 
 otx_status
-otx_matcher_search_serial(
-    otx_arena *scratch, const otx_matcher *matcher, const otx_mask *mask,
+otx_matcher_search_within(
+    otx_worker *worker, const otx_matcher *matcher, const otx_mask *mask,
     const otx_match_query *query, otx_match *best, int32_t capacity,
     int32_t *count)
 {
     search s = {
-        .matcher = matcher, .mask = mask, .query = query, .scratch = scratch};
+        .matcher = matcher,
+        .mask = mask,
+        .query = query,
+        .worker = worker,
+        .pool = worker->pool,
+        .scratch = worker->scratch};
 
     *count = 0;
     if (find_complaint(matcher, mask, query, capacity))

@@ -124,7 +124,7 @@ make_mask(
 typedef struct trial
 {
     int32_t index;
-    bool alone; /* may use the threads of the pool */
+    otx_worker *worker; /* of the wave; NULL: the only node */
     otx_arena *scratch;
     otx_chart_space *space;
     otx_vec2 *points; /* [point_count] corners of the core */
@@ -330,12 +330,12 @@ search(
         query.usage_width = query.usage_height = OTX_USAGE_CELLS;
         query.usage_weight = s->usage;
     }
-    return t->alone ? otx_matcher_search(
-                          m->run, supply->matcher, mask, &query, best,
-                          s->candidates, count)
-                    : otx_matcher_search_serial(
-                          t->scratch, supply->matcher, mask, &query, best,
-                          s->candidates, count);
+    return t->worker ? otx_matcher_search_within(
+                           t->worker, supply->matcher, mask, &query, best,
+                           s->candidates, count)
+                     : otx_matcher_search(
+                           m->run, supply->matcher, mask, &query, best,
+                           s->candidates, count);
 }
 
 /* Puts the exact continuation first when the search found nothing better. */
@@ -447,6 +447,7 @@ fit_of_wave(void *context, int64_t index, otx_worker *worker)
     const wave *w = context;
     trial t = {
         .index = w->fits[index].node,
+        .worker = worker,
         .scratch = worker->scratch,
         .space = &w->mapper->spaces[worker->index]};
 
@@ -459,10 +460,7 @@ fit_alone(const otx_mapper *m, otx_fit *fit)
 {
     const otx_arena_mark mark = otx_arena_here(m->run->scratch);
     trial t = {
-        .index = fit->node,
-        .alone = true,
-        .scratch = m->run->scratch,
-        .space = &m->spaces[0]};
+        .index = fit->node, .scratch = m->run->scratch, .space = &m->spaces[0]};
     const otx_status status = find_place(m, &t, fit);
 
     otx_arena_release(m->run->scratch, mark);
@@ -470,14 +468,13 @@ fit_alone(const otx_mapper *m, otx_fit *fit)
                                          : status;
 }
 
-/* Both ways find the same, to the bit; which is faster depends on how many
- * threads there are. What a search objects to is said only to a lone fit. */
+/* What a search objects to is said only to a lone fit. */
 otx_status
 otx_fit_find(const otx_mapper *m, otx_fit *fits, int32_t count)
 {
     wave w = {m, fits};
 
-    if (count > 1 && count >= otx_pool_threads(m->run->pool))
+    if (count > 1)
     {
         const otx_status status =
             otx_pool_for(m->run->pool, count, fit_of_wave, &w);

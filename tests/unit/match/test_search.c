@@ -547,8 +547,9 @@ search_with_threads(int32_t threads, otx_match best[6], int32_t *count)
     memset(best, 0, 6 * sizeof *best);
     if (threads == 0)
         assert_int_equal(
-            otx_matcher_search_serial(
-                run->scratch, matcher, &scene.mask, &query, best, 6, count),
+            otx_matcher_search_within(
+                &(otx_worker){.scratch = run->scratch}, matcher, &scene.mask,
+                &query, best, 6, count),
             OSDTEX_OK);
     else
         assert_int_equal(
