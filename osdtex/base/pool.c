@@ -117,7 +117,7 @@ is_turn(const loop *l, int64_t index)
 {
     const otx_pool_order *o = l->order;
 
-    for (int32_t i = o->first[index]; i < o->first[index + 1]; ++i)
+    for (int64_t i = o->first[index]; i < o->first[index + 1]; ++i)
         if (!l->done[o->before[i]])
             return false;
     return true;

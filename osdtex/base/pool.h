@@ -43,7 +43,7 @@ otx_status otx_pool_share(
  * before[first[i]] to before[first[i + 1]], all below i. */
 typedef struct otx_pool_order
 {
-    const int32_t *first;
+    const int64_t *first;
     const int32_t *before;
 } otx_pool_order;
 

@@ -6,16 +6,20 @@
  * truncated downwards at the present labelling, so that a move cannot raise
  * the energy; it is checked all the same. A patch whose surroundings have not
  * changed since its last move is not tried again: the move would find what it
- * found. */
+ * found. Moves that do not see each other run at the same time (cut_order.c).
+ */
 #include "relax/cut.h"
 
 #include "math/maxflow.h"
-#include "relax/cut_cost.h"
+#include "relax/cut_memo.h"
+#include "relax/cut_order.h"
 
 enum
 {
     NONE = -1,
-    LINKS_PER_TASK = 64
+    LINKS_PER_TASK = 64,
+    EDGES_PER_TASK = 4096,
+    MOVES_PER_STEP = 256 /* between two chances to cancel */
 };
 
 static const char stage[] = "cut";
@@ -24,13 +28,17 @@ typedef struct state
 {
     otx_run *run;
     otx_cut_cost cost;
+    otx_cut_memo memo;
+    otx_cut_order order;
     const otx_level *leaf;
     int32_t offer_count;
     otx_cut_view *views; /* [face_count], what each face shows now */
-    int32_t *local;      /* [face_count], node of the present move or NONE */
-    int32_t *changed_at; /* [face_count], move that set the label, 0 none */
-    int32_t *tried_at;   /* [offer_count], last move, NONE before the first */
-    int32_t move;        /* numbered from 1 */
+    int32_t *local;      /* [face_count], node of the move that may change it
+                          * now, or NONE */
+    int64_t *changed_at; /* [face_count], move that set the label, 0 none */
+    int64_t *tried_at;   /* [offer_count], last move, NONE before the first */
+    int64_t *changes;    /* [offer_count], of the energy by this sweep's move */
+    int32_t sweep;       /* moves are numbered from 1 through all sweeps */
 } state;
 
 /* An edge of a face that may change: what it costs as the labels are (keep),
@@ -46,6 +54,7 @@ typedef struct link
 typedef struct move
 {
     const state *s;
+    otx_worker *worker;
     int32_t alpha;
     int32_t node_count;
     int32_t *faces;      /* [node_count] */
@@ -143,9 +152,10 @@ allocate_state(state *s)
 
     s->views = OTX_NEW(scratch, otx_cut_view, faces);
     s->local = OTX_NEW(scratch, int32_t, faces);
-    s->changed_at = OTX_ZNEW(scratch, int32_t, faces);
-    s->tried_at = OTX_NEW(scratch, int32_t, s->offer_count);
-    if (!s->views || !s->local || !s->changed_at || !s->tried_at)
+    s->changed_at = OTX_ZNEW(scratch, int64_t, faces);
+    s->tried_at = OTX_NEW(scratch, int64_t, s->offer_count);
+    s->changes = OTX_NEW(scratch, int64_t, s->offer_count);
+    if (!s->views || !s->local || !s->changed_at || !s->tried_at || !s->changes)
         return false;
     for (int64_t f = 0; f < faces; ++f)
         s->local[f] = NONE;
@@ -154,24 +164,57 @@ allocate_state(state *s)
     return true;
 }
 
-/* Energy of the present labels, without the faces that have none. */
-static int64_t
-total_energy(const state *s)
+/* The energy of the labels while it is summed, in whole numbers: in any order.
+ */
+typedef struct tally
 {
-    int64_t sum = 0;
+    const state *s;
+    int64_t *sums; /* by task */
+} tally;
 
-    for (int32_t e = 0; e < s->leaf->edge_count; ++e)
+static otx_status
+sum_edges(void *context, int64_t index, otx_worker *worker)
+{
+    const tally *t = context;
+    const state *s = t->s;
+    const int64_t first = index * EDGES_PER_TASK;
+    const int64_t end = first + EDGES_PER_TASK;
+
+    (void)worker;
+    for (int64_t e = first; e < end && e < s->leaf->edge_count; ++e)
     {
         const int32_t *faces = s->leaf->edge_faces + 2 * (size_t)e;
 
-        if (faces[1] >= 0)
-            sum += otx_cut_cost_edge(
-                &s->cost, e, s->views[faces[0]], s->views[faces[1]]);
+        if (faces[1] < 0)
+            continue;
+
+        const otx_cut_view views[2] = {s->views[faces[0]], s->views[faces[1]]};
+
+        t->sums[index] += otx_cut_memo_edge(&s->memo, (int32_t)e, views, 0);
     }
+    return OSDTEX_OK;
+}
+
+/* Energy of the present labels, without the faces that have none, in units of
+ * colour x texels. */
+static otx_status
+total_energy(const state *s, double *out)
+{
+    const int64_t tasks =
+        ((int64_t)s->leaf->edge_count + EDGES_PER_TASK - 1) / EDGES_PER_TASK;
+    tally t = {s, OTX_ZNEW(s->run->scratch, int64_t, tasks)};
+    int64_t sum = 0;
+
+    if (!t.sums)
+        return otx_fail_memory(s->run, stage);
+    OTX_TRY(otx_pool_for(s->run->pool, tasks, sum_edges, &t));
+    for (int64_t i = 0; i < tasks; ++i)
+        sum += t.sums[i];
     for (int32_t f = 0; f < s->leaf->face_count; ++f)
         if (s->views[f].label >= 0)
             sum += otx_cut_cost_face(&s->cost, f, s->views[f]);
-    return sum;
+    *out = (double)sum * s->cost.unit;
+    return OSDTEX_OK;
 }
 
 /* Whether a label on or beside the faces of an offer has changed since the
@@ -180,7 +223,7 @@ static bool
 worth_trying(const state *s, int32_t alpha)
 {
     const otx_offer *offer = &s->cost.offers[alpha];
-    const int32_t since = s->tried_at[alpha];
+    const int64_t since = s->tried_at[alpha];
 
     if (since == NONE)
         return true;
@@ -207,7 +250,7 @@ static bool
 list_nodes(state *s, move *m)
 {
     const otx_offer *offer = &s->cost.offers[m->alpha];
-    otx_arena *scratch = s->run->scratch;
+    otx_arena *scratch = m->worker->scratch;
 
     m->faces = OTX_NEW(scratch, int32_t, offer->face_count);
     m->takes = OTX_NEW(scratch, otx_cut_view, offer->face_count);
@@ -240,7 +283,7 @@ list_links(const state *s, move *m)
 
     for (int32_t n = 0; n < m->node_count; ++n)
         capacity += otx_level_face_size(leaf, m->faces[n]);
-    m->links = OTX_NEW(s->run->scratch, link, capacity);
+    m->links = OTX_NEW(m->worker->scratch, link, capacity);
     if (!m->links)
         return false;
     for (int32_t n = 0; n < m->node_count; ++n)
@@ -275,8 +318,12 @@ cost_link(const move *m, link *l)
         keep[k] = s->views[faces[k]];
         take[k] = l->node[k] == NONE ? keep[k] : m->takes[l->node[k]];
     }
-    l->keep = otx_cut_cost_edge(&s->cost, l->edge, keep[0], keep[1]);
-    l->take[0] = otx_cut_cost_edge(&s->cost, l->edge, take[0], keep[1]);
+
+    const otx_cut_view first[2] = {take[0], keep[1]};
+    const otx_cut_view second[2] = {keep[0], take[1]};
+
+    l->keep = otx_cut_memo_edge(&s->memo, l->edge, keep, 0);
+    l->take[0] = otx_cut_memo_edge(&s->memo, l->edge, first, 0);
 
     /* Inside one patch both choices put the same two charts side by side. */
     if (keep[0].label == keep[1].label && keep[0].label >= 0 &&
@@ -285,7 +332,7 @@ cost_link(const move *m, link *l)
         otx_cut_cost_joined(&s->cost, l->edge, take[0], take[1]))
         l->take[1] = l->take[0];
     else
-        l->take[1] = otx_cut_cost_edge(&s->cost, l->edge, keep[0], take[1]);
+        l->take[1] = otx_cut_memo_edge(&s->memo, l->edge, second, 1);
 }
 
 static otx_status
@@ -328,7 +375,7 @@ static otx_maxflow *
 build_graph(const move *m)
 {
     otx_maxflow *graph =
-        otx_maxflow_create(m->s->run->scratch, m->node_count, m->link_count);
+        otx_maxflow_create(m->worker->scratch, m->node_count, m->link_count);
 
     if (!graph)
         return NULL;
@@ -381,66 +428,85 @@ apply(state *s, const move *m, const otx_maxflow *graph)
         if (!otx_maxflow_source_side(graph, n))
             continue;
         s->views[m->faces[n]] = m->takes[n];
-        s->changed_at[m->faces[n]] = s->move;
+        s->changed_at[m->faces[n]] = s->tried_at[m->alpha];
     }
 }
 
 static otx_status
-run_move(state *s, move *m, otx_cut_stats *stats)
+run_move(state *s, move *m)
 {
+    otx_maxflow *graph;
+
     if (!list_nodes(s, m) || !list_links(s, m))
-        return otx_fail_memory(s->run, stage);
-    OTX_TRY(otx_pool_for(
-        s->run->pool, (m->link_count + LINKS_PER_TASK - 1) / LINKS_PER_TASK,
+        return OSDTEX_ERROR_MEMORY;
+    OTX_TRY(otx_pool_share(
+        m->worker, (m->link_count + LINKS_PER_TASK - 1) / LINKS_PER_TASK,
         cost_links, m));
-
-    otx_maxflow *graph = build_graph(m);
-
+    graph = build_graph(m);
     if (!graph)
-        return otx_fail_memory(s->run, stage);
+        return OSDTEX_ERROR_MEMORY;
     otx_maxflow_solve(graph);
-
-    const int64_t change = energy_change(m, graph);
-
-    stats->moves += change < 0;
-    stats->rejected += change > 0;
-    if (change < 0)
+    s->changes[m->alpha] = energy_change(m, graph);
+    if (s->changes[m->alpha] < 0)
         apply(s, m, graph);
     return OSDTEX_OK;
 }
 
+/* The move at a place of the sweep, when those that it waits for are made. */
 static otx_status
-expand(state *s, int32_t alpha, otx_cut_stats *stats)
+expand(void *context, int64_t place, otx_worker *worker)
 {
-    const otx_arena_mark mark = otx_arena_here(s->run->scratch);
-    move m = {.s = s, .alpha = alpha};
+    state *s = context;
+    const int32_t alpha = s->order.offers[place];
+    move m = {.s = s, .worker = worker, .alpha = alpha};
+    otx_status status;
 
-    s->tried_at[alpha] = ++s->move;
-
-    const otx_status status = run_move(s, &m, stats);
-
+    s->changes[alpha] = 0;
+    if (!worth_trying(s, alpha))
+        return OSDTEX_OK;
+    s->tried_at[alpha] = (int64_t)s->sweep * s->offer_count + alpha + 1;
+    status = run_move(s, &m);
     for (int32_t n = 0; n < m.node_count; ++n)
         s->local[m.faces[n]] = NONE;
-    otx_arena_release(s->run->scratch, mark);
     return status;
+}
+
+/* All moves of a sweep, as if one after the other. */
+static otx_status
+sweep(state *s, otx_cut_stats *stats)
+{
+    const double steps = (double)s->cost.options->sweeps * s->offer_count;
+
+    for (int32_t first = 0; first < s->offer_count; first += MOVES_PER_STEP)
+    {
+        const int32_t left = s->offer_count - first;
+        const int32_t end =
+            first + (left < MOVES_PER_STEP ? left : MOVES_PER_STEP);
+
+        OTX_TRY(otx_progress(
+            s->run, stage,
+            ((double)s->sweep * s->offer_count + first) / steps));
+        if (otx_pool_for_ordered(
+                s->run->pool, &s->order.places, first, end, expand, s) !=
+            OSDTEX_OK)
+            return otx_fail_memory(s->run, stage);
+    }
+    for (int32_t p = 0; p < s->offer_count; ++p)
+    {
+        stats->moves += s->changes[p] < 0;
+        stats->rejected += s->changes[p] > 0;
+    }
+    return OSDTEX_OK;
 }
 
 static otx_status
 sweep_offers(state *s, otx_cut_stats *stats)
 {
-    const double steps = (double)s->cost.options->sweeps * s->offer_count;
-
-    while (stats->sweeps < s->cost.options->sweeps)
+    for (; s->sweep < s->cost.options->sweeps; ++s->sweep)
     {
         const int32_t moves = stats->moves;
-        const double done = (double)stats->sweeps * s->offer_count;
 
-        for (int32_t alpha = 0; alpha < s->offer_count; ++alpha)
-        {
-            OTX_TRY(otx_progress(s->run, stage, (done + alpha) / steps));
-            if (worth_trying(s, alpha))
-                OTX_TRY(expand(s, alpha, stats));
-        }
+        OTX_TRY(sweep(s, stats));
         ++stats->sweeps;
         if (stats->moves == moves)
             break;
@@ -478,9 +544,15 @@ cut_labels(state *s, int32_t *face_patch, otx_cut_stats *stats)
     for (int32_t p = 0; p < s->offer_count; ++p)
         OTX_TRY(check_offer(s, p));
     OTX_TRY(load_labels(s, face_patch));
-    stats->energy_before = (double)total_energy(s) * s->cost.unit;
+    if (otx_cut_memo_create(
+            s->run->scratch, &s->cost, s->offer_count, &s->memo) != OSDTEX_OK)
+        return otx_fail_memory(s->run, stage);
+    OTX_TRY(otx_cut_order_build(
+        s->run, s->run->arena, s->leaf, s->cost.offers, s->offer_count,
+        &s->order));
+    OTX_TRY(total_energy(s, &stats->energy_before));
     OTX_TRY(sweep_offers(s, stats));
-    stats->energy_after = (double)total_energy(s) * s->cost.unit;
+    OTX_TRY(total_energy(s, &stats->energy_after));
     return store_labels(s, face_patch, stats);
 }
 

@@ -140,7 +140,8 @@ loops_may_open_loops(void **state)
 /* Index i comes after i - 2, and after i / 2: values are sums over both. */
 typedef struct chain
 {
-    int32_t first[COUNT + 1], before[2 * COUNT];
+    int64_t first[COUNT + 1];
+    int32_t before[2 * COUNT];
     int64_t values[COUNT];
 } chain;
 
@@ -151,7 +152,7 @@ add_ones_before(void *context, int64_t index, otx_worker *worker)
 
     (void)worker;
     c->values[index] = 1;
-    for (int32_t i = c->first[index]; i < c->first[index + 1]; ++i)
+    for (int64_t i = c->first[index]; i < c->first[index + 1]; ++i)
         c->values[index] += c->values[c->before[i]] % 1000003;
     return OSDTEX_OK;
 }
@@ -172,7 +173,7 @@ an_order_is_kept(void **state)
     static const int32_t threads[] = {1, 2, 8};
     static const otx_pool_body bodies[] = {add_ones_before, add_after_a_loop};
     static chain sequential, c;
-    int32_t n = 0;
+    int64_t n = 0;
 
     (void)state;
     for (int32_t i = 0; i < COUNT; ++i)

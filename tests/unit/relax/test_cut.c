@@ -384,6 +384,54 @@ energy_falls_and_labels_stay_within_their_offers(void **state)
     }
 }
 
+/* Eight times eight patches on 32 x 32 faces, most out of sight of each other.
+ */
+static void
+cut_many(int32_t threads, int32_t labels[32 * 32])
+{
+    otx_run *run = test_run_create_with(NULL, threads);
+    const otx_surface *surface = test_grid_create(run->arena, 32, 32, 1.0);
+    const otx_exemplar *exemplar =
+        test_exemplar_create(run->arena, 128, 128, true, 3);
+    const otx_cut_options options = unit_options();
+    otx_offer offers[64];
+    otx_cut_stats stats;
+
+    for (int32_t p = 0; p < 64; ++p)
+    {
+        const int32_t x = p * 5 % 8 * 4, y = p * 5 / 8 % 8 * 4;
+        const int32_t box[4] = {
+            x > 2 ? x - 3 : 0, y > 2 ? y - 3 : 0, x < 25 ? x + 7 : 32,
+            y < 25 ? y + 7 : 32};
+
+        offers[p] = offer_rectangle(
+            run->arena, surface, 32, box, 0.3 * p,
+            (otx_vec2){7.0 * p, 11.0 * p});
+        for (int32_t f = 0; f < 16; ++f)
+            labels[(y + f / 4) * 32 + x + f % 4] = p;
+    }
+    assert_int_equal(
+        otx_cut_run(
+            run, surface, exemplar, offers, 64, &options, labels, &stats),
+        OSDTEX_OK);
+    assert_true(stats.moves > 32 && stats.rejected == 0);
+    test_run_destroy(run);
+}
+
+static void
+moves_at_the_same_time_do_not_change_the_labels(void **state)
+{
+    int32_t one[32 * 32], other[32 * 32];
+
+    (void)state;
+    cut_many(1, one);
+    for (int round = 0; round < 4; ++round)
+    {
+        cut_many(round % 2 ? 8 : 2, other);
+        assert_memory_equal(one, other, sizeof one);
+    }
+}
+
 static void
 threads_do_not_change_the_labels(void **state)
 {
@@ -496,6 +544,7 @@ main(void)
         cmocka_unit_test(two_labels_are_solved_exactly),
         cmocka_unit_test(energy_falls_and_labels_stay_within_their_offers),
         cmocka_unit_test(threads_do_not_change_the_labels),
+        cmocka_unit_test(moves_at_the_same_time_do_not_change_the_labels),
         cmocka_unit_test(faces_without_a_patch_are_taken_but_holes_are_not),
         cmocka_unit_test(bad_input_is_refused_and_labels_stay),
         cmocka_unit_test(cancelling_leaves_the_labels),
