@@ -25,7 +25,8 @@ static const char STAGE[] = "render";
 typedef struct place
 {
     int32_t at[3]; /* cell */
-    double badness;
+    double length;
+    double badness;         /* length times difference */
     otx_vec3 point, normal; /* sums, weighted by badness */
 } place;
 
@@ -150,14 +151,15 @@ place_of(const otx_scene *scene, const side sides[2], otx_vec3 low, double cell)
     const otx_vec3 across = otx_vec3_add(
         face_normal(scene, sides[0].face), face_normal(scene, sides[1].face));
     const double length = otx_vec3_length(across);
-    const double badness =
-        otx_vec3_length(otx_vec3_sub(b, a)) * difference(scene, sides);
+    const double edge = otx_vec3_length(otx_vec3_sub(b, a));
+    const double badness = edge * difference(scene, sides);
 
     return (place){
         .at =
             {(int32_t)((middle.x - low.x) / cell),
              (int32_t)((middle.y - low.y) / cell),
              (int32_t)((middle.z - low.z) / cell)},
+        .length = edge,
         .badness = badness,
         .point = otx_vec3_scale(badness, middle),
         .normal =
@@ -202,6 +204,7 @@ merge(place *places, int32_t count)
             places[kept++] = places[i];
             continue;
         }
+        last->length += places[i].length;
         last->badness += places[i].badness;
         last->point = otx_vec3_add(last->point, places[i].point);
         last->normal = otx_vec3_add(last->normal, places[i].normal);
@@ -284,6 +287,20 @@ view_of(const place *p, double height)
         OTX_CAMERA_FOV};
 }
 
+/* Says where it is, and how bad. */
+static void
+note_place(otx_run *run, int32_t rank, const place *p)
+{
+    const otx_vec3 at = otx_vec3_scale(1.0 / p->badness, p->point);
+
+    otx_note(
+        run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
+        "seam%d is around (%.4g, %.4g, %.4g): %.3g units of seams, whose two "
+        "sides differ by %.2f in the mean (1: black beside white)",
+        (int)rank, at.x, at.y, at.z, p->length,
+        p->badness / p->length / sqrt(3.0));
+}
+
 otx_status
 otx_worst_seam_camera(
     otx_run *run, const otx_scene *scene, int32_t rank, otx_camera *out)
@@ -313,7 +330,11 @@ otx_worst_seam_camera(
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "no seam of the model shows");
-    *out = view_of(pick(places, count, rank), PICTURE * cell);
+
+    const place *shown = pick(places, count, rank);
+
+    note_place(run, rank, shown);
+    *out = view_of(shown, PICTURE * cell);
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }

@@ -34,6 +34,8 @@ the_eye_is_before_the_seam(void **state)
     scene.texture_count = 1;
     scene.textures = &texture;
     assert_int_equal(otx_worst_seam_camera(run, &scene, 1, &first), OSDTEX_OK);
+    assert_non_null(strstr(test_last_message(run), "seam1 is around (0,"));
+    assert_non_null(strstr(test_last_message(run), "differ by 0.87"));
     assert_int_equal(otx_worst_seam_camera(run, &scene, 2, &second), OSDTEX_OK);
     assert_true(fabs(first.target.x) < 1e-6 && first.target.z > 0.0);
     assert_true(fabs(second.target.x) < 1e-6 && second.target.z > 0.0);
