@@ -85,6 +85,21 @@ test_run_destroy(otx_run *run)
     otx_heap_destroy(heap);
 }
 
+/* The same as the state of a test, for cmocka_unit_test_setup_teardown. */
+static inline int
+test_run_setup(void **state)
+{
+    *state = test_run_create();
+    return 0;
+}
+
+static inline int
+test_run_teardown(void **state)
+{
+    test_run_destroy(*state);
+    return 0;
+}
+
 /* The last finding's sentence, "" when there is none. */
 static inline const char *
 test_last_message(const otx_run *run)

@@ -1,67 +1,14 @@
-/* picture_support.h -- temporary folders, oracles and comparisons for the
- * tests of picture files. */
+/* picture_support.h -- oracles and comparisons for the tests of picture files.
+ */
 #ifndef OTX_TESTS_PICTURE_SUPPORT_H
 #define OTX_TESTS_PICTURE_SUPPORT_H
 
-#include "support.h"
+#include "folder.h"
 
 #include "base/random.h"
 #include "file/exr.h"
 #include "file/picture.h"
 #include "file/png_file.h"
-
-#include <dirent.h>
-#include <stdlib.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-enum
-{
-    TEST_PATH_BYTES = 4096
-};
-
-/* A folder of its own for a test, removed with all it holds. */
-typedef struct test_folder
-{
-    char path[64];
-} test_folder;
-
-static inline test_folder
-test_folder_create(void)
-{
-    test_folder folder = {"/tmp/osdtex-test-XXXXXX"};
-
-    assert_non_null(mkdtemp(folder.path));
-    return folder;
-}
-
-static inline void
-test_folder_remove(const test_folder *folder)
-{
-    DIR *dir = opendir(folder->path);
-    char path[TEST_PATH_BYTES];
-
-    for (struct dirent *e; dir && (e = readdir(dir));)
-    {
-        snprintf(path, sizeof path, "%s/%s", folder->path, e->d_name);
-        unlink(path);
-    }
-    if (dir)
-        closedir(dir);
-    rmdir(folder->path);
-}
-
-/* A path in the folder; valid until the next but three calls. */
-static inline const char *
-test_path(const test_folder *folder, const char *name)
-{
-    static char paths[4][TEST_PATH_BYTES];
-    static int next = 0;
-    char *path = paths[next++ % 4];
-
-    snprintf(path, TEST_PATH_BYTES, "%s/%s", folder->path, name);
-    return path;
-}
 
 /* Runs a program that is only an oracle. False when it is not installed. */
 static inline bool
@@ -83,34 +30,6 @@ test_shell(const test_folder *folder, const char *command)
         line, sizeof line, "cd %s && { %s; } >log.txt 2>&1", folder->path,
         command);
     return system(line);
-}
-
-/* All bytes of a file, in run->arena. */
-static inline uint8_t *
-test_read_bytes(otx_run *run, const char *path, size_t *bytes)
-{
-    FILE *file = fopen(path, "rb");
-    uint8_t *data;
-
-    assert_non_null(file);
-    fseek(file, 0, SEEK_END);
-    *bytes = (size_t)ftell(file);
-    rewind(file);
-    data = OTX_NEW(run->arena, uint8_t, *bytes + 1);
-    assert_int_equal(fread(data, 1, *bytes, file), *bytes);
-    fclose(file);
-    data[*bytes] = '\0';
-    return data;
-}
-
-static inline void
-test_write_bytes(const char *path, const uint8_t *data, size_t bytes)
-{
-    FILE *file = fopen(path, "wb");
-
-    assert_non_null(file);
-    assert_int_equal(fwrite(data, 1, bytes, file), bytes);
-    assert_int_equal(fclose(file), 0);
 }
 
 /* Uniform noise in [0, 1). */

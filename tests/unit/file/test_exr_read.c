@@ -1,45 +1,75 @@
 /* test_exr_read.c -- EXR files as other programs write them. */
 #include "picture_support.h"
 
-/* Makes `name` in the folder with oiiotool from a noise picture, a.exr. */
-static void
-make(const test_folder *folder, const char *arguments)
-{
-    char command[5000];
-
-    snprintf(command, sizeof command, "oiiotool %s", arguments);
-    if (test_shell(folder, command) != 0)
-        fail_msg("%s", command);
-}
-
-/* Skips the test where there is no oiiotool. */
-static otx_run *
-begin(test_folder *folder, otx_image *image)
+/* A folder with a.exr, a noise picture, for what oiiotool makes of it. */
+typedef struct fixture
 {
     otx_run *run;
+    test_folder folder;
+    otx_image image; /* of a.exr */
+} fixture;
+
+static int
+begin(void **state)
+{
+    fixture *f = calloc(1, sizeof *f);
     otx_exr_options options = otx_exr_options_default();
+
+    f->run = test_run_create();
+    f->folder = test_folder_create();
+    f->image = test_noise(f->run, 100, 70, 3);
+    options.tiled = false;
+    options.full_float = true;
+    assert_int_equal(
+        test_write_exr(
+            f->run, test_path(&f->folder, "a.exr"), &f->image, &options),
+        OSDTEX_OK);
+    *state = f;
+    return 0;
+}
+
+static int
+end(void **state)
+{
+    fixture *f = *state;
+
+    test_folder_remove(&f->folder);
+    test_run_destroy(f->run);
+    free(f);
+    return 0;
+}
+
+/* Runs oiiotool in the folder; skips the test where there is none. */
+static void
+make(const fixture *f, const char *arguments)
+{
+    char command[5000];
 
     if (!test_has_tool("oiiotool"))
     {
         print_message("oiiotool is not installed\n");
         skip();
     }
-    run = test_run_create();
-    *folder = test_folder_create();
-    *image = test_noise(run, 100, 70, 3);
-    options.tiled = false;
-    options.full_float = true;
-    assert_int_equal(
-        test_write_exr(run, test_path(folder, "a.exr"), image, &options),
-        OSDTEX_OK);
-    return run;
+    snprintf(command, sizeof command, "oiiotool %s", arguments);
+    if (test_shell(&f->folder, command) != 0)
+        fail_msg("%s", command);
 }
 
-static void
-end(const test_folder *folder, otx_run *run)
+static otx_picture
+read_file(const fixture *f, const char *name)
 {
-    test_folder_remove(folder);
-    test_run_destroy(run);
+    return test_read(f->run, test_path(&f->folder, name));
+}
+
+/* What oiiotool makes, as it is read. */
+static otx_picture
+made(const fixture *f, const char *arguments)
+{
+    char line[4096];
+
+    snprintf(line, sizeof line, "%s -o b.exr", arguments);
+    make(f, line);
+    return read_file(f, "b.exr");
 }
 
 static void
@@ -69,249 +99,183 @@ test_every_layout_is_read(void **state)
     const size_t case_count = sizeof cases / sizeof *cases;
     char arguments[4096] = "";
     size_t used = 0;
-    test_folder folder;
-    otx_image image;
-    otx_run *run = begin(&folder, &image);
+    const fixture *f = *state;
 
-    (void)state;
     /* One process: starting it costs more than the work. */
     for (size_t i = 0; i < case_count; ++i)
         used += (size_t)snprintf(
             arguments + used, sizeof arguments - used, " a.exr %s -o %zu.exr",
             cases[i].arguments, i);
-    make(&folder, arguments);
+    make(f, arguments);
     for (size_t i = 0; i < case_count; ++i)
     {
         char name[32];
         otx_picture picture;
 
         snprintf(name, sizeof name, "%zu.exr", i);
-        picture = test_read(run, test_path(&folder, name));
-        test_same_image(&picture.image, &image, cases[i].tolerance);
+        picture = read_file(f, name);
+        test_same_image(&picture.image, &f->image, cases[i].tolerance);
     }
-    end(&folder, run);
 }
 
 static void
 test_first_row_of_the_file_is_on_top(void **state)
 {
-    test_folder folder;
-    otx_image image;
-    otx_run *run = begin(&folder, &image);
-    otx_picture picture;
-
-    (void)state;
-    make(
-        &folder, "--create 4x2 3 --box:color=1,0.5,0.25:fill=1 0,0,0,0 "
-                 "-d half -o b.exr");
-    picture = test_read(run, test_path(&folder, "b.exr"));
+    const fixture *f = *state;
+    const otx_picture picture = made(
+        f, "--create 4x2 3 --box:color=1,0.5,0.25:fill=1 0,0,0,0 "
+           "-d half");
     assert_float_equal(otx_image_at(&picture.image, 0, 1)[0], 1.0, 0.0);
     assert_float_equal(otx_image_at(&picture.image, 0, 1)[2], 0.25, 0.0);
     assert_float_equal(otx_image_at(&picture.image, 0, 0)[0], 0.0, 0.0);
     assert_float_equal(otx_image_at(&picture.image, 1, 1)[0], 0.0, 0.0);
-    end(&folder, run);
 }
 
 static void
 test_level_0_of_a_mip_map_is_read(void **state)
 {
-    test_folder folder;
-    otx_image image;
-    otx_run *run = begin(&folder, &image);
+    const fixture *f = *state;
     otx_picture picture;
 
-    (void)state;
-    make(&folder, "a.exr -d float -otex b.exr");
-    picture = test_read(run, test_path(&folder, "b.exr"));
-    test_same_image(&picture.image, &image, 0.0);
-    end(&folder, run);
+    make(f, "a.exr -d float -otex b.exr");
+    picture = read_file(f, "b.exr");
+    test_same_image(&picture.image, &f->image, 0.0);
 }
 
 static void
 test_layers_are_found_and_named(void **state)
 {
-    test_folder folder;
-    otx_image image;
-    otx_run *run = begin(&folder, &image);
-    otx_picture picture;
-
-    (void)state;
-    make(
-        &folder, "a.exr --chnames diffuse.R,diffuse.G,diffuse.B -d half "
-                 "a.exr --ch R --chnames Z --chappend -o b.exr");
-    picture = test_read(run, test_path(&folder, "b.exr"));
-    test_same_image(&picture.image, &image, 1e-3);
+    const fixture *f = *state;
+    const otx_picture picture = made(
+        f, "a.exr --chnames diffuse.R,diffuse.G,diffuse.B -d half "
+           "a.exr --ch R --chnames Z --chappend");
+    test_same_image(&picture.image, &f->image, 1e-3);
     assert_string_equal(picture.layer, "diffuse");
-    assert_non_null(strstr(test_last_message(run), "diffuse"));
-    end(&folder, run);
+    assert_non_null(strstr(test_last_message(f->run), "diffuse"));
 }
 
 static void
 test_luminance_becomes_gray(void **state)
 {
-    test_folder folder;
-    otx_image image;
-    otx_run *run = begin(&folder, &image);
-    otx_picture picture;
-
-    (void)state;
-    make(&folder, "a.exr --ch G --chnames Y -o b.exr");
-    picture = test_read(run, test_path(&folder, "b.exr"));
+    const fixture *f = *state;
+    const otx_picture picture = made(f, "a.exr --ch G --chnames Y");
     assert_true(picture.is_gray);
     for (int32_t i = 0; i < 100 * 70 * 3; ++i)
         assert_float_equal(
-            picture.image.pixels[i], image.pixels[i / 3 * 3 + 1], 0.0);
-    end(&folder, run);
+            picture.image.pixels[i], f->image.pixels[i / 3 * 3 + 1], 0.0);
 }
 
 static void
 test_alpha_is_kept(void **state)
 {
-    test_folder folder;
-    otx_image image;
-    otx_run *run = begin(&folder, &image);
-    otx_picture picture;
-
-    (void)state;
-    make(&folder, "a.exr --ch R,G,B,A=0.5 -o b.exr");
-    picture = test_read(run, test_path(&folder, "b.exr"));
+    const fixture *f = *state;
+    const otx_picture picture = made(f, "a.exr --ch R,G,B,A=0.5");
     assert_true(picture.has_alpha);
     assert_true(picture.alpha_is_premultiplied);
     assert_int_equal(picture.image.channels, 4);
     assert_float_equal(picture.image.pixels[3], 0.5, 0.0);
-    assert_float_equal(picture.image.pixels[0], image.pixels[0], 0.0);
-    end(&folder, run);
+    assert_float_equal(picture.image.pixels[0], f->image.pixels[0], 0.0);
 }
 
 static void
 test_first_part_with_color_is_used(void **state)
 {
-    test_folder folder;
-    otx_image image;
-    otx_run *run = begin(&folder, &image);
-    otx_picture picture;
-
-    (void)state;
-    make(
-        &folder, "a.exr --ch R --chnames Z a.exr --siappend a.exr --siappend "
-                 "-o b.exr");
-    picture = test_read(run, test_path(&folder, "b.exr"));
+    const fixture *f = *state;
+    const otx_picture picture =
+        made(f, "a.exr --ch R --chnames Z a.exr --siappend a.exr --siappend");
     assert_int_equal(picture.part, 1);
-    test_same_image(&picture.image, &image, 0.0);
-    assert_non_null(strstr(test_last_message(run), "part 1"));
-    end(&folder, run);
+    test_same_image(&picture.image, &f->image, 0.0);
+    assert_non_null(strstr(test_last_message(f->run), "part 1"));
 }
 
 static void
 test_uint_channels_are_numbers(void **state)
 {
-    test_folder folder;
-    otx_image image;
-    otx_run *run = begin(&folder, &image);
-    otx_picture picture;
-
-    (void)state;
-    make(&folder, "--create 5x3 3 --addc 1,0,1 -d uint32 -o b.exr");
-    picture = test_read(run, test_path(&folder, "b.exr"));
+    const fixture *f = *state;
+    const otx_picture picture =
+        made(f, "--create 5x3 3 --addc 1,0,1 -d uint32");
     assert_int_equal(picture.bits, 32);
     assert_float_equal(picture.image.pixels[0], 4294967295.0, 256.0);
     assert_float_equal(picture.image.pixels[1], 0.0, 0.0);
-    end(&folder, run);
 }
 
 /* Display windows: crops of what is stored, and what is stored being less. */
 static void
 test_picture_is_what_is_stored_and_shown(void **state)
 {
-    test_folder folder;
-    otx_image image;
-    otx_run *run = begin(&folder, &image);
-    otx_picture picture;
-
-    (void)state;
-    make(&folder, "a.exr --fullsize 40x30+10+5 -o b.exr");
-    picture = test_read(run, test_path(&folder, "b.exr"));
+    const fixture *f = *state;
+    otx_picture picture = made(f, "a.exr --fullsize 40x30+10+5");
     assert_int_equal(picture.image.width, 40);
     assert_int_equal(picture.image.height, 30);
     for (int32_t y = 0; y < 30; ++y)
         assert_memory_equal(
             otx_picture_row(&picture, y),
-            otx_image_at(&image, 10, 70 - 1 - 5 - y), 40 * 3 * sizeof(float));
+            otx_image_at(&f->image, 10, 70 - 1 - 5 - y),
+            40 * 3 * sizeof(float));
 
-    make(&folder, "a.exr --fullsize 300x300-20-20 -o c.exr");
-    picture = test_read(run, test_path(&folder, "c.exr"));
-    test_same_image(&picture.image, &image, 0.0);
+    picture = made(f, "a.exr --fullsize 300x300-20-20");
+    test_same_image(&picture.image, &f->image, 0.0);
     assert_int_equal(picture.display_window.x_min, -20);
     assert_int_equal(picture.data_window.x_max, 99);
-    assert_non_null(strstr(test_last_message(run), "(0, 0) to (99, 69)"));
-    end(&folder, run);
+    assert_non_null(strstr(test_last_message(f->run), "(0, 0) to (99, 69)"));
 }
 
 /* Findings of one file and kind fold, so each refusal has a name of its own. */
 static void
 refuse(
-    otx_run *run, const test_folder *folder, const char *name,
-    otx_status expected, const char *word)
+    const fixture *f, const char *name, otx_status expected, const char *word)
 {
     otx_picture picture;
 
     assert_int_equal(
-        otx_picture_read(run, test_path(folder, name), &picture), expected);
-    if (!strstr(test_last_message(run), word))
-        fail_msg("no \"%s\" in: %s", word, test_last_message(run));
+        otx_picture_read(f->run, test_path(&f->folder, name), &picture),
+        expected);
+    if (!strstr(test_last_message(f->run), word))
+        fail_msg("no \"%s\" in: %s", word, test_last_message(f->run));
 }
 
 static void
 test_what_is_not_read_is_said(void **state)
 {
-    test_folder folder;
-    otx_image image;
-    otx_run *run = begin(&folder, &image);
+    const fixture *f = *state;
 
-    (void)state;
-    make(&folder, "a.exr -d half --compression dwaa -o b.exr");
-    refuse(run, &folder, "b.exr", OSDTEX_ERROR_SUPPORT, "--compression zip");
-    make(&folder, "a.exr -d half --compression dwab -o c.exr");
-    refuse(run, &folder, "c.exr", OSDTEX_ERROR_SUPPORT, "DWAB");
-    make(&folder, "a.exr --ch R,G --chnames depth,mask.R -o d.exr");
-    refuse(run, &folder, "d.exr", OSDTEX_ERROR_SUPPORT, "depth, mask.R");
-    make(&folder, "a.exr --fullsize 10x10+500+500 -o e.exr");
-    refuse(run, &folder, "e.exr", OSDTEX_ERROR_FORMAT, "display window");
-    end(&folder, run);
+    make(f, "a.exr -d half --compression dwaa -o b.exr");
+    refuse(f, "b.exr", OSDTEX_ERROR_SUPPORT, "--compression zip");
+    make(f, "a.exr -d half --compression dwab -o c.exr");
+    refuse(f, "c.exr", OSDTEX_ERROR_SUPPORT, "DWAB");
+    make(f, "a.exr --ch R,G --chnames depth,mask.R -o d.exr");
+    refuse(f, "d.exr", OSDTEX_ERROR_SUPPORT, "depth, mask.R");
+    make(f, "a.exr --fullsize 10x10+500+500 -o e.exr");
+    refuse(f, "e.exr", OSDTEX_ERROR_FORMAT, "display window");
 }
 
 /* Makes a header claim a size; the pixels are not there. */
 static void
-claim_size(
-    otx_run *run, const test_folder *folder, const char *name, int32_t width,
-    int32_t height)
+claim_size(const fixture *f, const char *name, int32_t width, int32_t height)
 {
     static const char attribute[] = "dataWindow\0box2i\0\x10\0\0";
     const int32_t maxima[2] = {width - 1, height - 1};
     size_t bytes;
-    uint8_t *data = test_read_bytes(run, test_path(folder, "a.exr"), &bytes);
+    uint8_t *data =
+        test_read_bytes(f->run, test_path(&f->folder, "a.exr"), &bytes);
     uint8_t *at = memmem(data, bytes, attribute, sizeof attribute);
 
     assert_non_null(at);
     memcpy(at + sizeof attribute + 8, maxima, sizeof maxima);
-    test_write_bytes(test_path(folder, name), data, bytes);
+    test_write_bytes(test_path(&f->folder, name), data, bytes);
 }
 
 static void
 test_sizes_are_limited_before_memory_is_taken(void **state)
 {
-    test_folder folder;
-    otx_image image;
-    otx_run *run = begin(&folder, &image);
+    const fixture *f = *state;
 
-    (void)state;
-    make(&folder, "--create 33000x1 3 -d half -o b.exr");
-    refuse(run, &folder, "b.exr", OSDTEX_ERROR_LIMIT, "33000 x 1");
+    make(f, "--create 33000x1 3 -d half -o b.exr");
+    refuse(f, "b.exr", OSDTEX_ERROR_LIMIT, "33000 x 1");
     /* The core finds by itself that such a file would have to be longer. */
-    claim_size(run, &folder, "c.exr", 2000000000, 2000000000);
-    refuse(run, &folder, "c.exr", OSDTEX_ERROR_FORMAT, "damaged");
-    assert_true(otx_heap_peak(run->heap) < 100u << 20);
-    end(&folder, run);
+    claim_size(f, "c.exr", 2000000000, 2000000000);
+    refuse(f, "c.exr", OSDTEX_ERROR_FORMAT, "damaged");
+    assert_true(otx_heap_peak(f->run->heap) < 100u << 20);
 }
 
 /* Our writer refuses such values, so the bytes of an uncompressed file are
@@ -331,30 +295,27 @@ patch(uint8_t *data, size_t bytes)
 static void
 test_first_pixel_that_is_not_finite_is_named(void **state)
 {
-    test_folder folder;
-    otx_image image;
-    otx_run *run = begin(&folder, &image);
+    const fixture *f = *state;
     otx_exr_options options = otx_exr_options_default();
     size_t bytes;
     uint8_t *data;
 
-    (void)state;
     options.full_float = true;
     options.tiled = false;
-    otx_image_at(&image, 30, 70 - 1 - 20)[1] = 42.0f;
-    otx_image_at(&image, 2, 70 - 1 - 21)[0] = 43.0f;
+    otx_image_at(&f->image, 30, 70 - 1 - 20)[1] = 42.0f;
+    otx_image_at(&f->image, 2, 70 - 1 - 21)[0] = 43.0f;
     assert_int_equal(
-        test_write_exr(run, test_path(&folder, "a.exr"), &image, &options),
+        test_write_exr(
+            f->run, test_path(&f->folder, "a.exr"), &f->image, &options),
         OSDTEX_OK);
-    make(&folder, "a.exr --compression none -o b.exr");
-    data = test_read_bytes(run, test_path(&folder, "b.exr"), &bytes);
+    make(f, "a.exr --compression none -o b.exr");
+    data = test_read_bytes(f->run, test_path(&f->folder, "b.exr"), &bytes);
     patch(data, bytes);
-    test_write_bytes(test_path(&folder, "b.exr"), data, bytes);
+    test_write_bytes(test_path(&f->folder, "b.exr"), data, bytes);
     refuse(
-        run, &folder, "b.exr", OSDTEX_ERROR_NUMERIC,
+        f, "b.exr", OSDTEX_ERROR_NUMERIC,
         "pixel (30, 20), counted from the top-left corner, is infinite in "
         "channel G");
-    end(&folder, run);
 }
 
 static void
@@ -405,19 +366,20 @@ test_cut_files_are_refused(void **state)
 int
 main(void)
 {
+#define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_layout_is_read),
-        cmocka_unit_test(test_first_row_of_the_file_is_on_top),
-        cmocka_unit_test(test_level_0_of_a_mip_map_is_read),
-        cmocka_unit_test(test_layers_are_found_and_named),
-        cmocka_unit_test(test_luminance_becomes_gray),
-        cmocka_unit_test(test_alpha_is_kept),
-        cmocka_unit_test(test_first_part_with_color_is_used),
-        cmocka_unit_test(test_uint_channels_are_numbers),
-        cmocka_unit_test(test_picture_is_what_is_stored_and_shown),
-        cmocka_unit_test(test_what_is_not_read_is_said),
-        cmocka_unit_test(test_sizes_are_limited_before_memory_is_taken),
-        cmocka_unit_test(test_first_pixel_that_is_not_finite_is_named),
+        TEST(test_every_layout_is_read),
+        TEST(test_first_row_of_the_file_is_on_top),
+        TEST(test_level_0_of_a_mip_map_is_read),
+        TEST(test_layers_are_found_and_named),
+        TEST(test_luminance_becomes_gray),
+        TEST(test_alpha_is_kept),
+        TEST(test_first_part_with_color_is_used),
+        TEST(test_uint_channels_are_numbers),
+        TEST(test_picture_is_what_is_stored_and_shown),
+        TEST(test_what_is_not_read_is_said),
+        TEST(test_sizes_are_limited_before_memory_is_taken),
+        TEST(test_first_pixel_that_is_not_finite_is_named),
         cmocka_unit_test(test_non_finite_photograph),
         cmocka_unit_test(test_cut_files_are_refused),
     };

@@ -6,20 +6,6 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-static int
-begin(void **state)
-{
-    *state = test_run_create();
-    return 0;
-}
-
-static int
-end(void **state)
-{
-    test_run_destroy(*state);
-    return 0;
-}
-
 static otx_mtl
 parse(otx_run *run, const char *text)
 {
@@ -146,7 +132,8 @@ written_text_is_plain(void **state)
 int
 main(void)
 {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
+#define TEST(name)                                                             \
+    cmocka_unit_test_setup_teardown(name, test_run_setup, test_run_teardown)
     const struct CMUnitTest tests[] = {
         TEST(what_pictures_need_is_read), TEST(map_options_are_skipped),
         TEST(errors_name_the_line), TEST(materials_are_found_by_either_name),

@@ -1,27 +1,19 @@
 /* test_mtlx.c -- one image with its colour space, and well-formed text. */
-#include "support.h"
+#include "folder.h"
 
 #include "file/mtlx.h"
-
-#include <stdlib.h>
-#include <unistd.h>
 
 static char *
 written(otx_run *run, const otx_mtlx *mtlx)
 {
-    char path[] = "/tmp/osdtex_mtlx_XXXXXX";
-    const int fd = mkstemp(path);
-    char *text = OTX_ZNEW(run->arena, char, 1 << 12);
-    FILE *file;
+    const test_folder folder = test_folder_create();
+    const char *path = test_path(&folder, "a.mtlx");
+    char *text;
 
-    assert_true(fd >= 0);
-    close(fd);
     if (otx_mtlx_write(run, mtlx, path, NULL) != OSDTEX_OK)
         fail_msg("%s", test_last_message(run));
-    file = fopen(path, "rb");
-    assert_true(fread(text, 1, (1 << 12) - 1, file) > 0);
-    fclose(file);
-    unlink(path);
+    text = test_read_text(run, path);
+    test_folder_remove(&folder);
     return text;
 }
 

@@ -1,35 +1,11 @@
 /* test_obj.c -- the OBJ dialects, their errors, and damaged files. */
-#include "support.h"
+#include "obj_support.h"
 
 #include "base/random.h"
 #include "file/obj.h"
 
 #include <dirent.h>
 #include <stdlib.h>
-
-static int
-begin(void **state)
-{
-    *state = test_run_create();
-    return 0;
-}
-
-static int
-end(void **state)
-{
-    test_run_destroy(*state);
-    return 0;
-}
-
-static otx_obj
-parse(otx_run *run, const char *text)
-{
-    otx_obj obj;
-
-    assert_int_equal(
-        otx_obj_parse(run, "t.obj", text, strlen(text), &obj), OSDTEX_OK);
-    return obj;
-}
 
 /* A square with UVs, groups, materials and tags: something of everything. */
 static const char square[] = "# a square\n"
@@ -64,7 +40,7 @@ everything_is_read(void **state)
     static const int32_t firsts[] = {0, 3, 7};
     static const float texture[] = {0, 0, 1, 0, 1, 1};
     static const float last[] = {.5f, .5f, 1};
-    const otx_obj obj = parse(*state, square);
+    const otx_obj obj = test_obj_parse(*state, square);
 
     assert_string_equal(obj.path, "t.obj");
     assert_int_equal(obj.vert_count, 5);
@@ -86,7 +62,7 @@ everything_is_read(void **state)
 static void
 names_are_verbatim(void **state)
 {
-    const otx_obj obj = parse(*state, square);
+    const otx_obj obj = test_obj_parse(*state, square);
 
     assert_int_equal(obj.groups.count, 1);
     assert_string_equal(obj.groups.text[0], "left right");
@@ -103,7 +79,7 @@ names_are_verbatim(void **state)
 static void
 names_occur_once_and_may_be_absent(void **state)
 {
-    const otx_obj obj = parse(
+    const otx_obj obj = test_obj_parse(
         *state, "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
                 "f 1 2 3\ng a\nf 1 2 3\ng b\\\n c\nf 1 2 3\ng a\nf 1 2 3\n"
                 "g b   c\nf 1 2 3\ng\nf 1 2 3\n");
@@ -118,7 +94,7 @@ names_occur_once_and_may_be_absent(void **state)
 static void
 tags_are_read(void **state)
 {
-    const otx_obj obj = parse(*state, square);
+    const otx_obj obj = test_obj_parse(*state, square);
     static const int32_t edges[] = {0, 1, 0, 2};
 
     assert_int_equal(obj.creases.count, 2);
@@ -143,8 +119,8 @@ vertices_have_weights_or_colors(void **state)
 {
     otx_run *run = *state;
     static const float colors[] = {1, 1, 1, .1f, .2f, .3f, .4f, .5f, .6f};
-    const otx_obj obj =
-        parse(run, "v 1 2 3 2\nv 4 5 6 .1 .2 .3\nv 7 8 9 .4 .5 .6 1\n");
+    const otx_obj obj = test_obj_parse(
+        run, "v 1 2 3 2\nv 4 5 6 .1 .2 .3\nv 7 8 9 .4 .5 .6 1\n");
 
     assert_int_equal(obj.vert_count, 3);
     assert_true(obj.points[2] == 3 && obj.points[3] == 4);
@@ -155,7 +131,8 @@ vertices_have_weights_or_colors(void **state)
 static void
 faces_may_refer_forward(void **state)
 {
-    const otx_obj obj = parse(*state, "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0");
+    const otx_obj obj =
+        test_obj_parse(*state, "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0");
 
     assert_int_equal(obj.face_verts[2], 2);
 }
@@ -166,7 +143,8 @@ ignored_kinds_are_counted_once(void **state)
     otx_run *run = *state;
     osdtex_diagnostic d;
 
-    parse(run, "v 0 0 0\nl 1 1\np 1\nl 1 1\nvp 0 0\nlod 3\nwhat \x1B\nfo 1\n");
+    test_obj_parse(
+        run, "v 0 0 0\nl 1 1\np 1\nl 1 1\nvp 0 0\nlod 3\nwhat \x1B\nfo 1\n");
     assert_int_equal(otx_diagnostics_count(run->diagnostics), 4);
     otx_diagnostics_get(run->diagnostics, 0, &d);
     assert_int_equal(d.severity, OSDTEX_SEVERITY_WARNING);
@@ -510,7 +488,8 @@ memory_may_end_anywhere(void **state)
 int
 main(void)
 {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
+#define TEST(name)                                                             \
+    cmocka_unit_test_setup_teardown(name, test_run_setup, test_run_teardown)
     const struct CMUnitTest tests[] = {
         TEST(everything_is_read),
         TEST(names_are_verbatim),

@@ -1,33 +1,9 @@
 /* test_obj_tags.c -- the grammar of subdivision tags. */
-#include "support.h"
+#include "obj_support.h"
 
 #include "file/obj.h"
 
 #define SQUARE "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
-
-static int
-begin(void **state)
-{
-    *state = test_run_create();
-    return 0;
-}
-
-static int
-end(void **state)
-{
-    test_run_destroy(*state);
-    return 0;
-}
-
-static otx_obj
-parse(otx_run *run, const char *text)
-{
-    otx_obj obj;
-
-    assert_int_equal(
-        otx_obj_parse(run, "t.obj", text, strlen(text), &obj), OSDTEX_OK);
-    return obj;
-}
 
 /* Integers are edges, not a chain, with one sharpness for all or one each. */
 static void
@@ -35,7 +11,7 @@ one_line_may_hold_many_edges(void **state)
 {
     static const int32_t edges[] = {0, 1, 2, 3, 1, 2, 3, 0};
     static const float sharpness[] = {2, 2, 3, 4};
-    const otx_obj obj = parse(
+    const otx_obj obj = test_obj_parse(
         *state, SQUARE "t crease 4/1/0 0 1 2 3 2\n"
                        "t crease 4/2/0 1 2 3 0 3 4\n");
 
@@ -48,8 +24,8 @@ static void
 one_line_may_hold_many_corners(void **state)
 {
     static const float sharpness[] = {2, 2, 3, 4};
-    const otx_obj obj =
-        parse(*state, SQUARE "t corner 2/1/0 0 1 2\nt corner 2/2/0 2 3 3 4\n");
+    const otx_obj obj = test_obj_parse(
+        *state, SQUARE "t corner 2/1/0 0 1 2\nt corner 2/2/0 2 3 3 4\n");
 
     assert_int_equal(obj.corners.count, 4);
     assert_int_equal(obj.corners.verts[3], 3);
@@ -59,7 +35,7 @@ one_line_may_hold_many_corners(void **state)
 static void
 the_last_rule_counts(void **state)
 {
-    const otx_obj obj = parse(
+    const otx_obj obj = test_obj_parse(
         *state, SQUARE "t interpolateboundary 1/0/0 1\n"
                        "t interpolateboundary 1/0/0 0\n"
                        "t facevaryinginterpolateboundary 1/0/0 5\n"
@@ -79,7 +55,7 @@ other_tags_are_warned_about(void **state)
     otx_run *run = *state;
     osdtex_diagnostic d;
 
-    parse(
+    test_obj_parse(
         run, SQUARE "t vertexedit 99/99/99\nt facevaryingpropagatecorners\n"
                     "t what ever\n");
     assert_int_equal(otx_diagnostics_count(run->diagnostics), 1);
@@ -93,7 +69,8 @@ static void
 embree_edges_count_from_one(void **state)
 {
     static const int32_t edges[] = {0, 1, 3, 2};
-    const otx_obj obj = parse(*state, SQUARE "ec 1.5 1 2\nec 10 -1 -2\n");
+    const otx_obj obj =
+        test_obj_parse(*state, SQUARE "ec 1.5 1 2\nec 10 -1 -2\n");
 
     assert_int_equal(obj.creases.count, 2);
     assert_memory_equal(obj.creases.verts, edges, sizeof edges);
@@ -169,7 +146,8 @@ errors_name_the_line(void **state)
 int
 main(void)
 {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
+#define TEST(name)                                                             \
+    cmocka_unit_test_setup_teardown(name, test_run_setup, test_run_teardown)
     const struct CMUnitTest tests[] = {TEST(one_line_may_hold_many_edges),
                                        TEST(one_line_may_hold_many_corners),
                                        TEST(the_last_rule_counts),

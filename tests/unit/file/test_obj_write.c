@@ -1,44 +1,11 @@
 /* test_obj_write.c -- what is written reads back as the same. */
-#include "support.h"
+#include "folder.h"
+#include "obj_support.h"
 
 #include "base/random.h"
 #include "file/obj_write.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <unistd.h>
-
-typedef struct fixture
-{
-    otx_run *run;
-    char path[32];
-} fixture;
-
-static int
-begin(void **state)
-{
-    fixture *f = calloc(1, sizeof *f);
-    int fd;
-
-    strcpy(f->path, "/tmp/osdtex-obj-XXXXXX");
-    fd = mkstemp(f->path);
-    assert_true(fd >= 0);
-    close(fd);
-    f->run = test_run_create();
-    *state = f;
-    return 0;
-}
-
-static int
-end(void **state)
-{
-    fixture *f = *state;
-
-    unlink(f->path);
-    test_run_destroy(f->run);
-    free(f);
-    return 0;
-}
 
 static void
 same_bytes(const void *a, const void *b, size_t size)
@@ -99,17 +66,7 @@ same_obj(const otx_obj *a, const otx_obj *b)
 }
 
 static otx_obj
-parse(otx_run *run, const char *text)
-{
-    otx_obj obj;
-
-    assert_int_equal(
-        otx_obj_parse(run, "t.obj", text, strlen(text), &obj), OSDTEX_OK);
-    return obj;
-}
-
-static otx_obj
-write_and_read(fixture *f, const otx_obj *obj)
+write_and_read(test_file *f, const otx_obj *obj)
 {
     static const otx_obj_write_options options = {.tags = true};
     otx_obj back;
@@ -125,7 +82,7 @@ write_and_read(fixture *f, const otx_obj *obj)
 
 static void
 write_text(
-    fixture *f, const otx_obj *obj, const otx_obj_write_options *options,
+    test_file *f, const otx_obj *obj, const otx_obj_write_options *options,
     char text[512])
 {
     FILE *file;
@@ -140,8 +97,8 @@ write_text(
 static void
 lines_of_points_stay(void **state)
 {
-    fixture *f = *state;
-    const otx_obj obj = parse(
+    test_file *f = *state;
+    const otx_obj obj = test_obj_parse(
         f->run, "v 0 -0 +0\r\n# aside\n  v\t1e0  0 .10 \n"
                 "v 0 1.000 0 0 1 0 # green\nv 2 \\\n3 4\nf 1 2 3\n");
     char text[512];
@@ -158,8 +115,8 @@ written_text_is_plain(void **state)
     static const char *const comments[] = {"made by a test", "in two\nlines"};
     static const otx_obj_write_options options = {
         .comments = comments, .comment_count = 2};
-    fixture *f = *state;
-    otx_obj obj = parse(
+    test_file *f = *state;
+    otx_obj obj = test_obj_parse(
         f->run, "mtllib a.mtl\nv 0 0 0\nv 1e0 0 .1\nv 0 1 0\nvt .5 .25\n"
                 "f 1 2 3\ng a b\nusemtl my mat\nf 1/1 2/1 3/1\nf 1 3 2\n"
                 "g\nf 2 1 3\nt crease 2/1/0 0 1 2\n");
@@ -177,8 +134,8 @@ written_text_is_plain(void **state)
 static void
 everything_round_trips(void **state)
 {
-    fixture *f = *state;
-    const otx_obj obj = parse(
+    test_file *f = *state;
+    const otx_obj obj = test_obj_parse(
         f->run,
         "mtllib a b.mtl\nmtllib c.mtl\nv 0 0 0 1 0 .5\nv 1 0 0\nv 1 1 0\n"
         "v 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 1e-30 16777217\n"
@@ -200,7 +157,7 @@ any_float_round_trips(void **state)
     {
         VERTS = 20000
     };
-    fixture *f = *state;
+    test_file *f = *state;
     float *points = OTX_NEW(f->run->arena, float, 3 * VERTS);
     static const int32_t first[1] = {0};
     otx_obj obj = {
@@ -233,7 +190,7 @@ real_cages_round_trip(void **state)
     static const char *const names[] = {
         "catmark_car",       "catmark_cubes_semisharp", "catmark_hole_test2",
         "fancy_teapot_subd", "spot_control_mesh",       "loop_chaikin0"};
-    fixture *f = *state;
+    test_file *f = *state;
 
     if (access(SHARED_DATA "/cages", R_OK) != 0)
     {
@@ -255,7 +212,7 @@ real_cages_round_trip(void **state)
 static void
 what_is_not_finite_is_not_written(void **state)
 {
-    fixture *f = *state;
+    test_file *f = *state;
     static const float points[] = {0, 0, 0, 0, NAN, 0};
     static const int32_t first[1] = {0};
     const otx_obj obj = {
@@ -269,8 +226,8 @@ what_is_not_finite_is_not_written(void **state)
 static void
 a_full_disk_is_told(void **state)
 {
-    fixture *f = *state;
-    const otx_obj obj = parse(f->run, "v 0 0 0\n");
+    test_file *f = *state;
+    const otx_obj obj = test_obj_parse(f->run, "v 0 0 0\n");
 
     if (access("/dev/full", W_OK) != 0)
         skip();
@@ -286,7 +243,8 @@ a_full_disk_is_told(void **state)
 int
 main(void)
 {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
+#define TEST(name)                                                             \
+    cmocka_unit_test_setup_teardown(name, test_file_setup, test_file_teardown)
     const struct CMUnitTest tests[] = {
         TEST(written_text_is_plain),  TEST(lines_of_points_stay),
         TEST(everything_round_trips), TEST(any_float_round_trips),

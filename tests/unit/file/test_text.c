@@ -12,20 +12,6 @@ enum
     LIMIT = 1 << 20
 };
 
-static int
-begin(void **state)
-{
-    *state = test_run_create();
-    return 0;
-}
-
-static int
-end(void **state)
-{
-    test_run_destroy(*state);
-    return 0;
-}
-
 static otx_text
 open_bytes(otx_run *run, const char *bytes, size_t size)
 {
@@ -218,15 +204,22 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(all_line_ends_count, begin, end),
-        cmocka_unit_test_setup_teardown(continued_lines_are_one, begin, end),
         cmocka_unit_test_setup_teardown(
-            tokens_end_at_blanks_and_comments, begin, end),
-        cmocka_unit_test_setup_teardown(long_lines_have_no_limit, begin, end),
+            all_line_ends_count, test_run_setup, test_run_teardown),
+        cmocka_unit_test_setup_teardown(
+            continued_lines_are_one, test_run_setup, test_run_teardown),
+        cmocka_unit_test_setup_teardown(
+            tokens_end_at_blanks_and_comments, test_run_setup,
+            test_run_teardown),
+        cmocka_unit_test_setup_teardown(
+            long_lines_have_no_limit, test_run_setup, test_run_teardown),
         cmocka_unit_test(quotes_are_short_and_printable),
-        cmocka_unit_test_setup_teardown(what_is_no_utf8_is_refused, begin, end),
-        cmocka_unit_test_setup_teardown(unreadable_files_say_why, begin, end),
-        cmocka_unit_test_setup_teardown(pipes_are_read, begin, end)};
+        cmocka_unit_test_setup_teardown(
+            what_is_no_utf8_is_refused, test_run_setup, test_run_teardown),
+        cmocka_unit_test_setup_teardown(
+            unreadable_files_say_why, test_run_setup, test_run_teardown),
+        cmocka_unit_test_setup_teardown(
+            pipes_are_read, test_run_setup, test_run_teardown)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,45 +1,10 @@
 /* test_text_out.c -- buffered output keeps order, and its first failure. */
-#include "support.h"
+#include "folder.h"
 
 #include "file/text_out.h"
 
-#include <stdlib.h>
-#include <unistd.h>
-
-typedef struct fixture
-{
-    otx_run *run;
-    char path[32];
-} fixture;
-
-static int
-begin(void **state)
-{
-    fixture *f = calloc(1, sizeof *f);
-    int fd;
-
-    strcpy(f->path, "/tmp/osdtex-out-XXXXXX");
-    fd = mkstemp(f->path);
-    assert_true(fd >= 0);
-    close(fd);
-    f->run = test_run_create();
-    *state = f;
-    return 0;
-}
-
-static int
-end(void **state)
-{
-    fixture *f = *state;
-
-    unlink(f->path);
-    test_run_destroy(f->run);
-    free(f);
-    return 0;
-}
-
 static size_t
-read_back(const fixture *f, char *bytes, size_t capacity)
+read_back(const test_file *f, char *bytes, size_t capacity)
 {
     FILE *file = fopen(f->path, "rb");
     const size_t size = fread(bytes, 1, capacity, file);
@@ -51,7 +16,7 @@ read_back(const fixture *f, char *bytes, size_t capacity)
 static void
 values_are_plain_text(void **state)
 {
-    fixture *f = *state;
+    test_file *f = *state;
     char text[128];
     otx_text_out *out;
 
@@ -81,7 +46,7 @@ order_is_kept(void **state)
         LARGE = 1 << 20,
         SMALL = 1000
     };
-    fixture *f = *state;
+    test_file *f = *state;
     char *bytes = OTX_NEW(f->run->arena, char, LARGE + 2 * SMALL);
     char *back = OTX_NEW(f->run->arena, char, LARGE + 3 * SMALL);
     otx_text_out *out;
@@ -101,7 +66,7 @@ order_is_kept(void **state)
 static void
 the_first_failure_is_told_once(void **state)
 {
-    fixture *f = *state;
+    test_file *f = *state;
     otx_text_out *out;
     osdtex_diagnostic d;
 
@@ -123,7 +88,7 @@ the_first_failure_is_told_once(void **state)
 static void
 release_closes(void **state)
 {
-    fixture *f = *state;
+    test_file *f = *state;
 
     for (int i = 0; i < 5000; ++i)
     {
@@ -139,7 +104,8 @@ release_closes(void **state)
 int
 main(void)
 {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
+#define TEST(name)                                                             \
+    cmocka_unit_test_setup_teardown(name, test_file_setup, test_file_teardown)
     const struct CMUnitTest tests[] = {
         TEST(values_are_plain_text), TEST(order_is_kept),
         TEST(the_first_failure_is_told_once), TEST(release_closes)};

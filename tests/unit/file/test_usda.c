@@ -1,11 +1,9 @@
 /* test_usda.c -- the text says what the cage is, and names stay valid. */
-#include "support.h"
+#include "folder.h"
 
 #include "file/usda.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 static const float POINTS[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0.5f, 2, 0, 0};
 static const int32_t FIRST[] = {0, 4, 7};
@@ -54,19 +52,14 @@ small_cage(void)
 static char *
 written(otx_run *run, const otx_usda *usda)
 {
-    char path[] = "/tmp/osdtex_usda_XXXXXX";
-    const int fd = mkstemp(path);
-    char *text = OTX_ZNEW(run->arena, char, 1 << 16);
-    FILE *file;
+    const test_folder folder = test_folder_create();
+    const char *path = test_path(&folder, "a.usda");
+    char *text;
 
-    assert_true(fd >= 0);
-    close(fd);
     if (otx_usda_write(run, usda, path, NULL) != OSDTEX_OK)
         fail_msg("%s", test_last_message(run));
-    file = fopen(path, "rb");
-    assert_true(fread(text, 1, (1 << 16) - 1, file) > 0);
-    fclose(file);
-    unlink(path);
+    text = test_read_text(run, path);
+    test_folder_remove(&folder);
     return text;
 }
 
