@@ -109,14 +109,35 @@ otx_session_refuse(const char *format, ...)
     return OTX_EXIT_USAGE;
 }
 
+/* Names in a file may hold what a terminal takes for commands. */
+static void
+put_plain(const char *text)
+{
+    for (;;)
+    {
+        size_t plain = 0;
+
+        while ((unsigned char)text[plain] >= ' ' && text[plain] != 127)
+            ++plain;
+        fwrite(text, 1, plain, stderr);
+        text += plain;
+        if (*text == '\0')
+            return;
+        fputc('?', stderr);
+        ++text;
+    }
+}
+
 /* "shirt.obj:4711: ", "shirt.obj: " or "". */
 static void
 put_place(const osdtex_diagnostic *d)
 {
-    if (d->file && d->line > 0)
-        fprintf(stderr, "%s:%lld: ", d->file, (long long)d->line);
-    else if (d->file)
-        fprintf(stderr, "%s: ", d->file);
+    if (!d->file)
+        return;
+    put_plain(d->file);
+    if (d->line > 0)
+        fprintf(stderr, ":%lld", (long long)d->line);
+    fputs(": ", stderr);
 }
 
 static void
@@ -135,7 +156,8 @@ put_finding(void *user, const osdtex_diagnostic *d)
     else
         fprintf(stderr, "%s: ", d->stage);
     put_place(d);
-    fprintf(stderr, "%s\n", d->message);
+    put_plain(d->message);
+    fputc('\n', stderr);
 }
 
 /* Findings are printed when they are new; how many there were is known at the
@@ -153,9 +175,9 @@ put_repeats(otx_session *session)
             continue;
         fputs("osdtex: ", stderr);
         put_place(&d);
-        fprintf(
-            stderr, "%lld findings like this: %s\n", (long long)d.count,
-            d.message);
+        fprintf(stderr, "%lld findings like this: ", (long long)d.count);
+        put_plain(d.message);
+        fputc('\n', stderr);
     }
 }
 

@@ -174,6 +174,12 @@ class Files(ProgramTest):
         self.assert_error(self.run_map(CAGE, picture), 2, f"{picture}: ")
         self.assertFalse((self.folder / "out.obj").exists())
 
+    def test_findings_hold_no_commands_for_terminals(self):
+        path = self.folder / "a.obj"
+        path.write_text("usemtl a\33[31mred\n" + CAGE.read_text())
+        result = self.run_map(path, EXEMPLAR, "--also", f"b={EXEMPLAR}")
+        self.assert_error(result, 1, "there are 'a?[31mred'")
+
     def test_colour_errors(self):
         self.assert_error(
             self.run_map(CAGE, EXEMPLAR, "--from", "sRBG"), 4, "--from")
