@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum
@@ -121,4 +122,63 @@ otx_bake_outputs_are_done(
            (!options->preview_png || is_there(cage, "_preview.mtl", NULL)) &&
            (options->udim ? tile_is_done(cage, options, options->udim, hash)
                           : named_tiles_are_done(cage, options, hash));
+}
+
+/* -- inputs that look like outputs ---------------------------------------- */
+
+/* Whether two paths are of one folder. */
+static bool
+share_folder(const char *a, const char *b)
+{
+    const char *const paths[2] = {a, b};
+    struct stat found[2];
+
+    for (int k = 0; k < 2; ++k)
+    {
+        const char *slash = strrchr(paths[k], '/');
+        char *folder = slash ? strndup(paths[k], (size_t)(slash - paths[k]) + 1)
+                             : strdup(".");
+        const bool fine = folder && stat(folder, &found[k]) == 0;
+
+        free(folder);
+        if (!fine)
+            return false;
+    }
+    return found[0].st_dev == found[1].st_dev &&
+           found[0].st_ino == found[1].st_ino;
+}
+
+/* ".1001.exr" or ".<UDIM>.exr", or the like of a PNG. */
+static bool
+is_tile(const char *text)
+{
+    const size_t number = *text == '.' ? strspn(text + 1, "0123456789") : 0;
+    const char *end = text + 1 + number;
+
+    if (*text == '.' && text[1] == '<')
+        end = strchr(text, '>') ? strchr(text, '>') + 1 : "";
+    else if (number != 4)
+        return false;
+    return strcmp(end, ".exr") == 0 || strcmp(end, ".png") == 0;
+}
+
+bool
+otx_bake_outputs_may_replace(const char *cage, const char *path)
+{
+    const char *slash = strrchr(cage, '/');
+    const char *name = slash ? slash + 1 : cage;
+    const size_t size = strlen(name) - strlen("_cage.obj");
+    const char *file;
+
+    if (!path || !share_folder(cage, path))
+        return false;
+    slash = strrchr(path, '/');
+    file = slash ? slash + 1 : path;
+    if (strncmp(file, name, size) != 0)
+        return false;
+    for (int kind = 0; kind < KIND_COUNT; ++kind)
+        if (strncmp(file + size, KINDS[kind], strlen(KINDS[kind])) == 0 &&
+            is_tile(file + size + strlen(KINDS[kind])))
+            return true;
+    return false;
 }

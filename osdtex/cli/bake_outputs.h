@@ -18,4 +18,11 @@ bool otx_bake_outputs_are_done(
     const char *cage, const osdtex_bake_options *options,
     const char hash[OSDTEX_HASH_BYTES]);
 
+/* Whether a bake may write over a file: one that is named as its textures are,
+ * by a number or, as a mask's tiles are, by a token.
+ *
+ *   cage  as above
+ *   path  NULL allowed */
+bool otx_bake_outputs_may_replace(const char *cage, const char *path);
+
 #endif

@@ -112,6 +112,15 @@ outputs_are_apart(const otx_map_request *r)
         inputs[4 + k] = r->also.files[k];
     for (int k = 0; r->maps && k <= r->also.count; ++k)
         outputs[6 + k] = r->exrs[k];
+    for (int k = 0; r->bakes && k < INPUTS; ++k)
+        if (otx_bake_outputs_may_replace(r->cage_obj, inputs[k]))
+        {
+            otx_session_refuse(
+                "'%s' is an input and named as a baked texture, which would "
+                "replace it; choose another name for the output",
+                inputs[k]);
+            return false;
+        }
     for (int i = 0; i < OUTPUTS; ++i)
     {
         for (int k = 0; outputs[i] && k < INPUTS; ++k)

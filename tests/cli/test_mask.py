@@ -332,6 +332,24 @@ class Refused(MaskTest):
         self.refused(
             1, "would be replaced", "--also", f"{MATERIAL}={other}")
 
+    def test_a_bake_does_not_replace_its_masks(self):
+        for name in "out.1001.png", "out.<UDIM>.png", "out_uv.1001.png":
+            mask = self.folder / name.replace("<UDIM>", "1001")
+            write_png(mask, 4, 4, lambda x, y: (255, 0, 0))
+            before = mask.read_bytes()
+            result = self.run_program(
+                "bake", PLANE, FIRST, "-o", self.folder / "out.obj", *QUICK,
+                "--also", GRASS, "--mask", self.folder / name)
+            self.assert_error(result, 1, "named as a baked texture")
+            self.assertEqual(mask.read_bytes(), before)
+        mask = self.folder / "out_mask.1001.png"
+        write_png(mask, 4, 4, lambda x, y: (255, 0, 0))
+        self.assert_exit(
+            self.run_program(
+                "bake", PLANE, FIRST, "-o", self.folder / "out.obj", *QUICK,
+                "--resolution", "64", "--also", GRASS, "--mask",
+                self.folder / "out_mask.<UDIM>.png"), 0)
+
     def test_what_nobody_shows_is_a_warning(self):
         result = self.run_map(
             PLANE, FIRST, "--level", "2", "--also", GRASS, "--mask",
