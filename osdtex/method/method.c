@@ -99,6 +99,14 @@ check(otx_run *run, const otx_surface *surface, const otx_map_request *request)
             (otx_where){surface->cage->path, 0, request->first_face, -1},
             "the first patch asks for face %d, and the cage has faces 0 to %d",
             (int)request->first_face, (int)surface->cage->face_count - 1);
+    if (request->first_face >= 0 && surface->cage->face_hole &&
+        surface->cage->face_hole[request->first_face])
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "map",
+            (otx_where){surface->cage->path, 0, request->first_face, -1},
+            "the first patch asks for face %d, which is a hole; begin at one "
+            "that is textured",
+            (int)request->first_face);
     if (!(surface->area > 0.0))
         return otx_fail(
             run, OSDTEX_ERROR_TOPOLOGY, "map",

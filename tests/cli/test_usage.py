@@ -120,7 +120,19 @@ class Mistakes(ProgramTest):
         self.map_refused("no setting 'nonsense'", "--set", "nonsense=1")
         self.map_refused("--first-patch takes", "--first-patch", "1,2,3")
         self.map_refused("faces 0 to 95", "--first-patch", "96,0,0,0")
+        self.refused(
+            "which is a hole", "map", CAGES / "hole.obj", EXEMPLAR, "-o",
+            self.folder / "out.obj", "--level", "1", "--first-patch",
+            "10,0,0,0")
         self.map_refused("--preview writes", "--preview", "x.jpg")
+
+    def test_what_a_method_leaves_out_is_said(self):
+        result = self.run_map(
+            CAGES / "torus.obj", EXEMPLARS / "bricks_tile.png", "--level", "1",
+            "--method", "material",
+            "--first-patch", "3,0,0,0")
+        self.assert_exit(result, 0)
+        self.assertIn("has no first patch", result.stderr)
 
     def test_render_values(self):
         out = self.folder / "x.png"
