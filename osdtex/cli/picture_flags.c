@@ -47,7 +47,7 @@ parse_size(const otx_flag_values *values, osdtex_render_options *out)
     if (!text)
         return true;
     length = strcspn(text, "xX");
-    if (text[length] != '\0' && length < sizeof width)
+    if (length < sizeof width && text[length] != '\0')
     {
         memcpy(width, text, length);
         width[length] = '\0';

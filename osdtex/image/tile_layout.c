@@ -347,7 +347,7 @@ otx_tile_layout_parse(
     otx_run *run, const char *path, const char *text, int32_t width,
     int32_t height, otx_tile_layout *out)
 {
-    uint64_t v[FIELD_COUNT];
+    uint64_t v[FIELD_COUNT] = {0};
     bool good = true;
 
     *out = (otx_tile_layout){0};
