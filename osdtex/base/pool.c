@@ -13,7 +13,10 @@
 
 enum
 {
-    MAX_THREADS = 256
+    MAX_THREADS = 256,
+    /* Looks at a counter before a thread goes to sleep, some ten microseconds:
+     * solvers open their next loop sooner than a sleeper wakes. */
+    LOOKS = 4000
 };
 
 typedef struct loop
@@ -25,7 +28,7 @@ typedef struct loop
     const otx_pool_order *order; /* NULL: any */
     uint8_t *done;               /* [end] of what has an order */
     bool inner;                  /* opened from within a body */
-    int32_t busy;                /* threads that joined */
+    _Atomic int32_t busy;        /* threads that joined */
     int64_t failed_index;
     otx_status failure;
     struct loop *newer;
@@ -46,10 +49,11 @@ struct otx_pool
     thread threads[MAX_THREADS];
 
     pthread_mutex_t mutex;
-    pthread_cond_t work; /* a loop was opened */
-    pthread_cond_t done; /* something ended that others wait for */
-    loop *open;          /* oldest first */
-    int32_t waiting;     /* for `done`, willing to help */
+    pthread_cond_t work;    /* a loop was opened */
+    pthread_cond_t done;    /* something ended that others wait for */
+    loop *open;             /* oldest first */
+    _Atomic int64_t opened; /* loops so far */
+    int32_t waiting;        /* for `done`, willing to help */
     bool quit;
 };
 
@@ -179,6 +183,7 @@ open_loop(otx_pool *pool, loop *l)
     while (*at)
         at = &(*at)->newer;
     *at = l;
+    atomic_fetch_add(&pool->opened, 1);
     pthread_cond_broadcast(&pool->work);
     if (l->inner && pool->waiting > 0)
         pthread_cond_broadcast(&pool->done);
@@ -196,6 +201,10 @@ close_loop(otx_pool *pool, loop *l, otx_worker *worker)
     while (*at != l)
         at = &(*at)->newer;
     *at = l->newer;
+    pthread_mutex_unlock(&pool->mutex);
+    for (int32_t i = 0; i < LOOKS && atomic_load(&l->busy) > 0; ++i)
+        continue;
+    pthread_mutex_lock(&pool->mutex);
     while (l->busy > 0)
         if (l->inner)
             pthread_cond_wait(&pool->done, &pool->mutex);
@@ -272,6 +281,20 @@ otx_pool_for_ordered(
 
 /* -- threads ------------------------------------------------------------- */
 
+/* Waits a moment, then asleep, for a loop to be opened. Under the lock. */
+static void
+wait_for_work(otx_pool *pool)
+{
+    const int64_t seen = atomic_load(&pool->opened);
+
+    pthread_mutex_unlock(&pool->mutex);
+    for (int32_t i = 0; i < LOOKS && atomic_load(&pool->opened) == seen; ++i)
+        continue;
+    pthread_mutex_lock(&pool->mutex);
+    if (atomic_load(&pool->opened) == seen && !pool->quit)
+        pthread_cond_wait(&pool->work, &pool->mutex);
+}
+
 static void *
 thread_main(void *argument)
 {
@@ -286,7 +309,7 @@ thread_main(void *argument)
         if (l)
             join(pool, l, &self->worker);
         else
-            pthread_cond_wait(&pool->work, &pool->mutex);
+            wait_for_work(pool);
     }
     pthread_mutex_unlock(&pool->mutex);
     return NULL;
