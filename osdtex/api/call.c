@@ -5,8 +5,9 @@
 #include <string.h>
 #include <time.h>
 
-double
-otx_call_now(void)
+/* Wall seconds of a clock that never goes back. */
+static double
+now(void)
 {
     struct timespec now;
 
@@ -32,7 +33,7 @@ otx_call_begin(osdtex_context *context, const char *stage, otx_call *call)
                 .progress_user = context->options.progress_user,
             },
         .scratch = otx_arena_here(context->scratch),
-        .begun = otx_call_now(),
+        .begun = now(),
     };
     call->run.arena = otx_arena_create(context->heap);
     if (!call->run.arena)
@@ -59,7 +60,7 @@ otx_status
 otx_call_end(otx_call *call, otx_status status)
 {
     otx_arena_release(call->run.scratch, call->scratch);
-    add_time(call->context, call->stage, otx_call_now() - call->begun);
+    add_time(call->context, call->stage, now() - call->begun);
     if (status != OSDTEX_OK)
         otx_arena_destroy(call->run.arena);
     return status;

@@ -70,7 +70,4 @@ otx_status otx_call_colour(otx_call *call, const otx_colour **out);
  * is read, copied into the handle, and forgotten. MEMORY. */
 otx_status otx_call_aside(otx_call *call, otx_run *out);
 
-/* Wall seconds of a clock that never goes back. */
-double otx_call_now(void);
-
 #endif

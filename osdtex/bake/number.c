@@ -41,9 +41,10 @@ stretch_of(const otx_texel_source *source, const otx_facet *facet, double s[2])
     s[1] = sqrt(fmax(half - root, 0.0));
 }
 
-void
-otx_number_at(
-    const otx_texel_source *source, const otx_walk *walk, float *values)
+/* The two values at a place, of the kind that is baked; 0 of seams, which are
+ * found texel by texel. */
+static void
+values_at(const otx_texel_source *source, const otx_walk *walk, float *values)
 {
     const int32_t face = walk->facet.face;
     otx_vec2 uv;
@@ -115,7 +116,7 @@ otx_number_inside(
     const otx_walk walk =
         otx_block_walk(block, home, otx_raster_texel(&block->raster, x, y));
 
-    otx_number_at(block->source, &walk, out);
+    values_at(block->source, &walk, out);
     if (block->source->kind == OTX_TEXEL_SEAM)
         out[0] = has_seam(block, x, y) || is_at_seam(block, x, y) ? 1.0f : 0.0f;
     out[2] = 1.0f;
@@ -126,7 +127,7 @@ otx_number_beyond(
     const otx_block *block, int32_t x, int32_t y, const otx_walk *walk,
     float *out)
 {
-    otx_number_at(block->source, walk, out);
+    values_at(block->source, walk, out);
     if (block->source->kind == OTX_TEXEL_SEAM)
         out[0] = is_at_seam(block, x, y) ? 1.0f : 0.0f;
     out[2] = 0.0f;

@@ -4,11 +4,6 @@
 
 #include "bake/block.h"
 
-/* The two values at a place, of the kind that is baked; 0 of seams, which are
- * found texel by texel. */
-void otx_number_at(
-    const otx_texel_source *source, const otx_walk *walk, float *values);
-
 /* All three of a texel on the surface: with whether it is there.
  *
  *   first  a sample on the texel's chart */

@@ -50,14 +50,6 @@ void otx_raster_edge(
 double otx_raster_nearest(otx_vec2 a, otx_vec2 b, otx_vec2 p);
 
 static inline otx_vec2
-otx_raster_sample(const otx_raster *raster, int32_t i, int32_t j)
-{
-    return (otx_vec2){
-        raster->origin.x + (i + 0.5) / raster->n,
-        raster->origin.y + (j + 0.5) / raster->n};
-}
-
-static inline otx_vec2
 otx_raster_texel(const otx_raster *raster, int32_t x, int32_t y)
 {
     return (otx_vec2){raster->origin.x + x + 0.5, raster->origin.y + y + 0.5};

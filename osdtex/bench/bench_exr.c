@@ -188,7 +188,7 @@ put_strip(otx_run *run, otx_exr_writer *writer, strip *t)
 
     OTX_TRY(otx_pool_for(run->pool, columns, pack_tile, t));
     for (int32_t x = 0; x < columns; ++x)
-        OTX_TRY(otx_exr_put_packed(writer, t->level, x, t->y, &t->chunks[x]));
+        OTX_TRY(otx_exr_put(writer, t->level, x, t->y, &t->chunks[x]));
     return OSDTEX_OK;
 }
 

@@ -133,7 +133,7 @@ put(void *user, int32_t slot, int32_t level, int32_t x, int32_t y)
 {
     target *t = user;
 
-    return otx_exr_put_packed(t->exr, level, x, y, &t->chunks[slot]);
+    return otx_exr_put(t->exr, level, x, y, &t->chunks[slot]);
 }
 
 /* Room for what is taken and not yet put. */

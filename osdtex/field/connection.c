@@ -177,8 +177,10 @@ otx_connection_build(
     return OSDTEX_OK;
 }
 
-uint8_t *
-otx_connection_inside(otx_run *run, const otx_connection *c)
+/* Marks the vertices whose faces all around are no holes: 1 inside. In
+ * run->arena; NULL when memory is out. */
+static uint8_t *
+mark_inside(otx_run *run, const otx_connection *c)
 {
     const otx_level *level = c->level;
     uint8_t *inside = OTX_ZNEW(run->arena, uint8_t, level->vert_count);
@@ -209,7 +211,7 @@ otx_connection_defects(otx_run *run, const otx_connection *c, double **out)
 {
     const otx_level *level = c->level;
     double *defects = OTX_NEW(run->arena, double, level->vert_count);
-    const uint8_t *inside = otx_connection_inside(run, c);
+    const uint8_t *inside = mark_inside(run, c);
 
     if (!defects || !inside)
         return otx_fail_memory(run, "field");

@@ -61,8 +61,4 @@ otx_connection_corner(const otx_connection *c, int32_t edge, int32_t face);
 otx_status
 otx_connection_defects(otx_run *run, const otx_connection *c, double **out);
 
-/* Marks the vertices whose faces all around are no holes: 1 inside. In
- * run->arena; NULL when memory is out. */
-uint8_t *otx_connection_inside(otx_run *run, const otx_connection *c);
-
 #endif

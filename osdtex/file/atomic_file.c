@@ -47,8 +47,9 @@ fail_errno(otx_run *run, const char *path, const char *what, int error)
         run, OSDTEX_ERROR_IO, STAGE, where, "%s: %s", what, strerror(error));
 }
 
-void
-otx_atomic_file_discard(otx_atomic_file_set *set)
+/* Removes the temporaries now. The set is then empty. */
+static void
+discard(otx_atomic_file_set *set)
 {
     for (const entry *e = set->first; e; e = e->next)
     {
@@ -62,7 +63,7 @@ otx_atomic_file_discard(otx_atomic_file_set *set)
 static void
 discard_deferred(void *set)
 {
-    otx_atomic_file_discard(set);
+    discard(set);
 }
 
 otx_status
@@ -165,7 +166,7 @@ take_back(otx_atomic_file_set *set)
         if (e->renamed && !e->existed)
             unlink(e->path);
     }
-    otx_atomic_file_discard(set);
+    discard(set);
 }
 
 otx_status
@@ -185,6 +186,6 @@ otx_atomic_file_commit(otx_run *run, otx_atomic_file_set *set, bool durable)
         }
         e->renamed = true;
     }
-    otx_atomic_file_discard(set);
+    discard(set);
     return OSDTEX_OK;
 }

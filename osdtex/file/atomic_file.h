@@ -30,7 +30,4 @@ otx_status otx_atomic_file_add(
 otx_status
 otx_atomic_file_commit(otx_run *run, otx_atomic_file_set *set, bool durable);
 
-/* Removes the temporaries now. The set is then empty. */
-void otx_atomic_file_discard(otx_atomic_file_set *set);
-
 #endif

@@ -90,34 +90,29 @@ otx_status otx_exr_open(
     otx_run *run, const char *path, const char *temporary, otx_exr_size size,
     const otx_exr_options *options, otx_exr_writer **out);
 
-/* Writes the next chunk, in file order: levels from 0 up; within a level rows
- * of tiles from the TOP, within a row from the left. A scanline file has level
- * 0 and x 0 only, and chunks of OTX_EXR_ROWS rows.
+/* Packs a chunk, which every thread of run->pool can do for other chunks at the
+ * same time.
  *
+ *   lane    the thread's number; no two at a time in one lane
  *   x, y    of the chunk, counted in chunks; y from the top
  *   pixels  the texel at the lower left corner of the chunk
  *   stride  floats from a row of texels to the one above
+ *   chunk   its bytes have room for otx_exr_packed_bytes
  *
- * Chunks at the right and lower rim are clipped to the level. ARGUMENT when it
- * is not the next one, NUMERIC, IO, MEMORY. */
-otx_status otx_exr_put(
-    otx_exr_writer *writer, int32_t level, int32_t x, int32_t y,
-    const float *pixels, ptrdiff_t stride);
-
-/* The same in two steps: packing, which every thread of run->pool can do for
- * other chunks at the same time, and putting, one by one in file order.
- *
- *   lane   the thread's number; no two at a time in one lane
- *   chunk  its bytes have room for otx_exr_packed_bytes
- *
- * What is wrong with the pixels is said when the chunk is put. */
+ * Chunks at the right and lower rim are clipped to the level. What is wrong
+ * with the pixels is said when the chunk is put. */
 void otx_exr_pack(
     const otx_exr_writer *writer, int32_t lane, int32_t level, int32_t x,
     int32_t y, const float *pixels, ptrdiff_t stride, otx_exr_chunk *chunk);
-otx_status otx_exr_put_packed(
+size_t otx_exr_packed_bytes(const otx_exr_writer *writer);
+
+/* Writes the next chunk, in file order: levels from 0 up; within a level rows
+ * of tiles from the TOP, within a row from the left. A scanline file has level
+ * 0 and x 0 only, and chunks of OTX_EXR_ROWS rows. ARGUMENT when it is not the
+ * next one, NUMERIC, IO, MEMORY. */
+otx_status otx_exr_put(
     otx_exr_writer *writer, int32_t level, int32_t x, int32_t y,
     const otx_exr_chunk *chunk);
-size_t otx_exr_packed_bytes(const otx_exr_writer *writer);
 
 /* Writes the offsets and closes the file. All chunks must be there. */
 otx_status otx_exr_end(otx_exr_writer *writer);

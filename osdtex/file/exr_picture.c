@@ -47,7 +47,7 @@ put_chunks(otx_run *run, otx_exr_writer *writer, batch *b, int64_t count)
         OTX_TRY(otx_progress(run, "write", (double)b->first / (double)count));
     OTX_TRY(otx_pool_for(run->pool, here, pack_one, b));
     for (int32_t i = 0; i < here; ++i, ++b->first)
-        OTX_TRY(otx_exr_put_packed(
+        OTX_TRY(otx_exr_put(
             writer, b->level, (int32_t)(b->first % b->columns),
             (int32_t)(b->first / b->columns), &b->chunks[i]));
     return OSDTEX_OK;

@@ -32,7 +32,6 @@ struct otx_exr_writer
     int64_t clamped_count;   /* values beyond the half range */
     otx_exr_packer *packers; /* [packer_count] one for each thread */
     int32_t packer_count;
-    uint8_t *packed; /* room for a chunk */
 };
 
 /* The place of a chunk in its level, in texels, y from the top. */
@@ -313,7 +312,7 @@ check_chunk(const otx_exr_writer *w, const otx_exr_chunk *chunk)
 }
 
 otx_status
-otx_exr_put_packed(
+otx_exr_put(
     otx_exr_writer *w, int32_t level, int32_t x, int32_t y,
     const otx_exr_chunk *chunk)
 {
@@ -334,19 +333,6 @@ otx_exr_put_packed(
     w->clamped_count += chunk->clamped_count;
     advance(w);
     return OSDTEX_OK;
-}
-
-otx_status
-otx_exr_put(
-    otx_exr_writer *w, int32_t level, int32_t x, int32_t y, const float *pixels,
-    ptrdiff_t stride)
-{
-    otx_exr_chunk chunk = {.bytes = w->packed, .status = OSDTEX_OK};
-
-    /* Only the next chunk is sure to be within the picture. */
-    if (level == w->level && x == w->x && y == w->y)
-        otx_exr_pack(w, 0, level, x, y, pixels, stride, &chunk);
-    return otx_exr_put_packed(w, level, x, y, &chunk);
 }
 
 /* ---- files -------------------------------------------------------------- */
@@ -371,9 +357,8 @@ make_packers(otx_run *run, otx_exr_writer *w)
     const size_t bytes = otx_exr_packed_bytes(w);
     const int32_t count = otx_pool_threads(run->pool);
 
-    w->packed = OTX_NEW(run->scratch, uint8_t, bytes);
     w->packers = OTX_ZNEW(run->scratch, otx_exr_packer, count);
-    if (!w->packed || !w->packers)
+    if (!w->packers)
         return otx_fail_memory(run, "picture");
     for (int32_t i = 0; i < count; ++i)
     {

@@ -8,8 +8,10 @@
 
 static const char STAGE[] = "mtlx";
 
-const char *
-otx_mtlx_color_space(const char *interop_id)
+/* MaterialX's name for a colour space of a colorInteropID, NULL for those it
+ * does not define. */
+static const char *
+color_space(const char *interop_id)
 {
     static const char *const names[][2] = {
         {"lin_ap1_scene", "acescg"},
@@ -49,7 +51,7 @@ write_escaped(otx_text_out *out, const char *text)
 static void
 write_image(otx_text_out *out, const otx_mtlx *mtlx, const char *name)
 {
-    const char *space = otx_mtlx_color_space(mtlx->interop_id);
+    const char *space = color_space(mtlx->interop_id);
 
     otx_text_out_string(out, "  <image name=\"");
     otx_text_out_string(out, name);

@@ -19,8 +19,4 @@ typedef struct otx_mtlx
 otx_status otx_mtlx_write(
     otx_run *run, const otx_mtlx *mtlx, const char *path, const char *title);
 
-/* MaterialX's name for a colour space of a colorInteropID, NULL for those it
- * does not define. */
-const char *otx_mtlx_color_space(const char *interop_id);
-
 #endif

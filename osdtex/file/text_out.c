@@ -151,13 +151,6 @@ otx_text_out_float(otx_text_out *out, float value)
 }
 
 void
-otx_text_out_double(otx_text_out *out, double value)
-{
-    out->used +=
-        otx_charconv_print_double(reserve(out, OTX_CHARCONV_BYTES), value);
-}
-
-void
 otx_text_out_name(otx_text_out *out, const char *name, bool blanks)
 {
     for (; *name; ++name)

@@ -42,13 +42,3 @@ otx_stretch_singular(const otx_vec3 p[3], const otx_vec2 uv[3], double sigma[2])
     sigma[0] = similar + opposite;
     sigma[1] = similar - opposite;
 }
-
-double
-otx_stretch_dirichlet(const double sigma[2])
-{
-    const double a = sigma[0] * sigma[0], b = sigma[1] * sigma[1];
-
-    if (!(sigma[1] > 0.0))
-        return INFINITY;
-    return 0.25 * (a + b + 1.0 / a + 1.0 / b) - 1.0;
-}

@@ -15,11 +15,6 @@
 void otx_stretch_singular(
     const otx_vec3 p[3], const otx_vec2 uv[3], double sigma[2]);
 
-/* Symmetric Dirichlet energy density of those singular values, 0 at isometry:
- * (s0^2 + s1^2 + 1/s0^2 + 1/s1^2) / 4 - 1 [Smith15, eq. 2]. INFINITY when
- * flipped. */
-double otx_stretch_dirichlet(const double sigma[2]);
-
 /* The triangle laid out in its own plane: q[0] at the origin, q[1] on the
  * positive x axis, counter-clockwise. */
 void otx_stretch_layout(const otx_vec3 p[3], otx_vec2 q[3]);

@@ -26,15 +26,16 @@ enum
  * lengths: float's resolution, with a margin. */
 static const double flat_share = 1e-9;
 
-otx_where
-otx_cage_check_at_face(const otx_cage_input *in, int32_t face)
+/* Where a face is, for findings. */
+static otx_where
+at_face(const otx_cage_input *in, int32_t face)
 {
     return (otx_where){
         in->path, in->face_line ? in->face_line[face] : 0, face, -1};
 }
 
-otx_where
-otx_cage_check_at_vertex(const otx_cage_input *in, int32_t vertex)
+static otx_where
+at_vertex(const otx_cage_input *in, int32_t vertex)
 {
     return (otx_where){
         in->path, in->vert_line ? in->vert_line[vertex] : 0, -1, vertex};
@@ -53,7 +54,7 @@ check_face_size(otx_run *run, const otx_cage_input *in, int32_t face)
 {
     const int64_t size =
         (int64_t)in->face_first[face + 1] - in->face_first[face];
-    const otx_where where = otx_cage_check_at_face(in, face);
+    const otx_where where = at_face(in, face);
 
     if (size < 3)
         return otx_fail(
@@ -74,7 +75,7 @@ static otx_status
 check_face_verts(
     otx_run *run, const otx_cage_input *in, int32_t face, int32_t *seen)
 {
-    const otx_where where = otx_cage_check_at_face(in, face);
+    const otx_where where = at_face(in, face);
 
     for (int32_t i = in->face_first[face]; i < in->face_first[face + 1]; ++i)
     {
@@ -105,8 +106,7 @@ check_triangles(otx_run *run, const otx_cage_input *in)
 
         if (size != 3)
             return otx_fail(
-                run, OSDTEX_ERROR_TOPOLOGY, STAGE,
-                otx_cage_check_at_face(in, f),
+                run, OSDTEX_ERROR_TOPOLOGY, STAGE, at_face(in, f),
                 "face %d has %d corners, and Loop subdivides triangles only; "
                 "use --scheme catmark",
                 f, size);
@@ -151,15 +151,13 @@ check_point(otx_run *run, const otx_cage_input *in, int32_t vertex)
     {
         if (!isfinite(p[i]))
             return otx_fail(
-                run, OSDTEX_ERROR_NUMERIC, STAGE,
-                otx_cage_check_at_vertex(in, vertex),
+                run, OSDTEX_ERROR_NUMERIC, STAGE, at_vertex(in, vertex),
                 "vertex %d has a coordinate that is not a finite number; "
                 "export the file again",
                 vertex);
         if (fabsf(p[i]) > coordinate_max)
             return otx_fail(
-                run, OSDTEX_ERROR_NUMERIC, STAGE,
-                otx_cage_check_at_vertex(in, vertex),
+                run, OSDTEX_ERROR_NUMERIC, STAGE, at_vertex(in, vertex),
                 "vertex %d lies at %g, beyond the limit of %g scene units; "
                 "scale the model down",
                 vertex, (double)p[i], (double)coordinate_max);
@@ -225,8 +223,7 @@ check_face_uvs(
             ++*missing;
         else if (uv < 0 || uv >= in->uv_count)
             return otx_fail(
-                run, OSDTEX_ERROR_FORMAT, STAGE,
-                otx_cage_check_at_face(in, face),
+                run, OSDTEX_ERROR_FORMAT, STAGE, at_face(in, face),
                 "face %d refers to UV %d, but there are %d; export the file "
                 "again",
                 face, uv, in->uv_count);
@@ -251,7 +248,7 @@ otx_cage_check_uvs(otx_run *run, const otx_cage_input *in, bool *usable)
 
         record(&status, check_face_uvs(run, in, f, &missing));
         if (before == 0 && missing > 0)
-            where = otx_cage_check_at_face(in, f);
+            where = at_face(in, f);
     }
     OTX_TRY(status);
     if (missing == in->face_first[in->face_count])
@@ -335,21 +332,21 @@ check_edge(
         return OSDTEX_OK;
     if (find_twins(t, edge, &a, &b))
         return otx_fail(
-            run, OSDTEX_ERROR_TOPOLOGY, STAGE, otx_cage_check_at_face(in, b),
+            run, OSDTEX_ERROR_TOPOLOGY, STAGE, at_face(in, b),
             "face %d has the same corners as face %d; delete one of them", b,
             a);
     a = t->corner_face[corners[0]];
     b = t->corner_face[corners[1]];
     if (size > 2)
         return otx_fail(
-            run, OSDTEX_ERROR_TOPOLOGY, STAGE, otx_cage_check_at_face(in, a),
+            run, OSDTEX_ERROR_TOPOLOGY, STAGE, at_face(in, a),
             "%d faces (%d, %d, %d%s) share the edge between vertices %d and "
             "%d; at most 2 may, so detach the others",
             size, a, b, t->corner_face[corners[2]], size > 3 ? ", …" : "",
             verts[0], verts[1]);
     if (same_direction(t, corners[0], corners[1]))
         return otx_fail(
-            run, OSDTEX_ERROR_TOPOLOGY, STAGE, otx_cage_check_at_face(in, a),
+            run, OSDTEX_ERROR_TOPOLOGY, STAGE, at_face(in, a),
             "faces %d and %d are wound against each other at the edge between "
             "vertices %d and %d; flip one of them",
             a, b, verts[0], verts[1]);
@@ -361,7 +358,7 @@ check_fan(
     otx_run *run, const otx_cage_input *in, const otx_topology *t,
     int32_t vertex, otx_topology_fan f)
 {
-    otx_where where = otx_cage_check_at_face(in, t->corner_face[f.start]);
+    otx_where where = at_face(in, t->corner_face[f.start]);
 
     where.vertex = vertex;
     if (f.faces + (f.border > 0) > OTX_CAGE_VALENCE_MAX)
@@ -393,7 +390,7 @@ check_fans(
     for (int32_t v = 0; v < t->vert_count; ++v)
     {
         if (fans[v].start < 0 && isolated++ == 0)
-            where = otx_cage_check_at_vertex(in, v);
+            where = at_vertex(in, v);
         if (fans[v].start >= 0 && !plain)
             record(&status, check_fan(run, in, t, v, fans[v]));
     }
@@ -419,15 +416,13 @@ note_cut(
 
     if (size > 2)
         otx_note(
-            run, OSDTEX_SEVERITY_WARNING, STAGE,
-            otx_cage_check_at_face(in, face),
+            run, OSDTEX_SEVERITY_WARNING, STAGE, at_face(in, face),
             "%d faces share the edge between vertices %d and %d; the texture "
             "is cut there",
             size, verts[0], verts[1]);
     else if (size == 2 && same_direction(t, corners[0], corners[1]))
         otx_note(
-            run, OSDTEX_SEVERITY_WARNING, STAGE,
-            otx_cage_check_at_face(in, face),
+            run, OSDTEX_SEVERITY_WARNING, STAGE, at_face(in, face),
             "faces %d and %d are wound against each other at the edge between "
             "vertices %d and %d; the texture is cut there, and on one of them "
             "it is mirrored: flip that one",
@@ -486,8 +481,7 @@ otx_cage_check_areas(otx_run *run, const otx_cage_input *in)
     {
         if (is_flat(in, f))
             otx_note(
-                run, OSDTEX_SEVERITY_WARNING, STAGE,
-                otx_cage_check_at_face(in, f),
+                run, OSDTEX_SEVERITY_WARNING, STAGE, at_face(in, f),
                 "face %d has no area; the texture on it may look stretched", f);
     }
 }

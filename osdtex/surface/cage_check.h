@@ -9,10 +9,6 @@
 #include "surface/cage.h"
 #include "surface/topology.h"
 
-/* Where a face or a vertex of `input` is, for findings. */
-otx_where otx_cage_check_at_face(const otx_cage_input *input, int32_t face);
-otx_where otx_cage_check_at_vertex(const otx_cage_input *input, int32_t vertex);
-
 /* There are faces; each has 3 corners or more, on different vertices that
  * exist. With Loop each is a triangle. */
 otx_status otx_cage_check_faces(

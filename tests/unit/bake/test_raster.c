@@ -47,7 +47,9 @@ samples_are_those_inside(void **state)
         for (int32_t y = 0; y < 14; ++y)
             for (int32_t x = 0; x < 18; ++x)
             {
-                const otx_vec2 at = otx_raster_sample(&raster, x, y);
+                const otx_vec2 at = {
+                    raster.origin.x + (x + 0.5) / raster.n,
+                    raster.origin.y + (y + 0.5) / raster.n};
                 const double most = fmin(
                     fmin(
                         turn * left_of(p[0], p[1], at),
