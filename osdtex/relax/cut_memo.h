@@ -1,8 +1,8 @@
 /* cut_memo.h -- costs of edges that were looked up before.
  *
- * A move compares what its patch shows with what the faces around show, and
- * two moves in three find most of them as an earlier sweep did. Each face that
- * a patch offers remembers, for each of its edges, the patch on the other side
+ * A move compares what its patch shows with what the faces around it show, and
+ * in later sweeps mostly finds what an earlier one found. Each face that a
+ * patch offers remembers, for each of its edges, the patch on the other side
  * that it was compared with last, and the cost. */
 #ifndef OTX_RELAX_CUT_MEMO_H
 #define OTX_RELAX_CUT_MEMO_H
