@@ -7,21 +7,28 @@
  * rounding, and the bend of a curved surface within a texel. */
 static const double AGREED = 0.0625;
 
+/* The chart at a sample, -1 none. */
+static inline int32_t
+chart_at(const otx_block *block, int32_t x, int32_t y, int32_t s)
+{
+    const int64_t id = otx_block_sample(block, x, y, s);
+
+    return id < 0 ? -1 : block->source->layout->chart[otx_piece_face(id)];
+}
+
 int32_t
 otx_inside_owner(const otx_block *block, int32_t x, int32_t y, int32_t *first)
 {
     const int32_t samples = block->raster.n * block->raster.n;
-    const int32_t *chart = block->source->layout->chart;
     int32_t charts[OTX_BLOCK_SAMPLES_MAX * OTX_BLOCK_SAMPLES_MAX];
     int32_t best = -1, best_count = 0;
     bool alike = true;
 
     *first = 0;
-    for (int32_t s = 0; s < samples; ++s)
+    charts[0] = chart_at(block, x, y, 0);
+    for (int32_t s = 1; s < samples; ++s)
     {
-        const int64_t id = otx_block_sample(block, x, y, s);
-
-        charts[s] = id < 0 ? -1 : chart[otx_piece_face(id)];
+        charts[s] = chart_at(block, x, y, s);
         alike = alike && charts[s] == charts[0];
     }
     if (alike)
@@ -160,9 +167,10 @@ otx_inside_color(
     }
     for (int32_t s = 0; s < n * n; ++s)
     {
+        const int32_t i = s % n, j = s / n;
         const otx_vec2 at = {
-            block->raster.origin.x + x + (s % n + 0.5) / n,
-            block->raster.origin.y + y + (s / n + 0.5) / n};
+            block->raster.origin.x + x + (i + 0.5) / n,
+            block->raster.origin.y + y + (j + 0.5) / n};
         const int64_t id = n == block->raster.n
                                ? otx_block_sample(block, x, y, s)
                                : piece_near(block, x, y, at);
