@@ -180,4 +180,33 @@ mesh_refine(otx_run *run, const otx_cage *cage, int32_t level)
     return surface;
 }
 
+/* A grid of 4 x 4 whose UVs are its x and y, cut into two islands at x = 2:
+ * the right one is pushed away by 10. */
+static inline otx_cage_input
+mesh_islands(otx_run *run)
+{
+    otx_cage_input in = mesh_grid(run, 4);
+    float *uvs = OTX_NEW(run->arena, float, 2 * 50);
+    int32_t *face_uvs = OTX_NEW(run->arena, int32_t, 64);
+
+    for (int32_t v = 0; v < 50; ++v)
+    {
+        uvs[2 * v] = in.points[3 * (v % 25)] + (v < 25 ? 0.0f : 10.0f);
+        uvs[2 * v + 1] = in.points[3 * (v % 25) + 1];
+    }
+    for (int32_t i = 0; i < 64; ++i)
+        face_uvs[i] = in.face_verts[i] + (i / 4 % 4 < 2 ? 0 : 25);
+    in.uvs = uvs;
+    in.uv_count = 50;
+    in.face_uvs = face_uvs;
+    return in;
+}
+
+static inline void
+assert_near(double a, double b, double allowed)
+{
+    if (!(fabs(a - b) <= allowed))
+        fail_msg("%.9g and %.9g differ by more than %g", a, b, allowed);
+}
+
 #endif
