@@ -64,7 +64,8 @@ options_of(
     *camera = (otx_camera){
         {ours->eye[0], ours->eye[1], ours->eye[2]},
         {ours->target[0], ours->target[1], ours->target[2]},
-        ours->fov};
+        ours->fov,
+        0.0};
     out->camera = camera;
     return OSDTEX_OK;
 }

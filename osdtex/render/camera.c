@@ -52,7 +52,7 @@ otx_camera_see(
 
     return (otx_camera){
         otx_vec3_add(centre, otx_vec3_scale(distance, turned)), centre,
-        OTX_CAMERA_FOV};
+        OTX_CAMERA_FOV, 0.0};
 }
 
 static bool
@@ -74,8 +74,8 @@ otx_camera_is_valid(const otx_camera *camera)
 otx_camera_frame
 otx_camera_aim(const otx_camera *camera, int32_t width, int32_t height)
 {
-    const otx_vec3 forward =
-        otx_vec3_unit(otx_vec3_sub(camera->target, camera->eye));
+    const otx_vec3 gaze = otx_vec3_sub(camera->target, camera->eye);
+    const otx_vec3 forward = otx_vec3_unit(gaze);
     const double pixel = 2.0 * tan(0.5 * camera->fov) / height;
     otx_vec3 right = otx_vec3_cross(forward, (otx_vec3){0.0, 1.0, 0.0});
 
@@ -90,6 +90,7 @@ otx_camera_aim(const otx_camera *camera, int32_t width, int32_t height)
         otx_vec3_scale(pixel, otx_vec3_cross(right, forward)),
         0.5 * width,
         0.5 * height,
+        camera->clip * otx_vec3_length(gaze),
     };
 }
 

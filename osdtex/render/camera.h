@@ -20,6 +20,8 @@ typedef struct otx_camera
 {
     otx_vec3 eye, target; /* scene units */
     double fov;           /* of the picture's height, radians, (0, pi) */
+    double clip; /* [0, 1): what is nearer than this share of the way to the
+                  * target is looked through */
 } otx_camera;
 
 /* Frame of a camera for one picture: pixel (x, y), y up from the bottom row,
@@ -29,6 +31,7 @@ typedef struct otx_camera_frame
     otx_vec3 eye, forward;          /* forward is unit */
     otx_vec3 right, up;             /* of one pixel at distance 1 */
     double half_width, half_height; /* pixels */
+    double near;                    /* depth from which things are seen */
 } otx_camera_frame;
 
 #define OTX_CAMERA_FOV (30.0 * OTX_PI / 180.0)

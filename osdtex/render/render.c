@@ -141,11 +141,16 @@ static bool
 trace_sample(const otx_shade *shade, otx_shade_sample *sample, float rgb[3])
 {
     const otx_camera_frame *frame = &shade->frame;
+    otx_vec3 from;
     otx_hit hit;
 
     sample->direction = otx_camera_direction(frame, sample->at.x, sample->at.y);
+    from = otx_vec3_mix(
+        1.0, frame->eye,
+        frame->near / otx_vec3_dot(sample->direction, frame->forward),
+        sample->direction);
     if (!otx_tracer_hit(
-            shade->tracer, ray_origin(frame->eye, sample->direction),
+            shade->tracer, ray_origin(from, sample->direction),
             sample->direction, &hit))
         return false;
     otx_shade_hit(shade, &hit, sample, rgb);

@@ -20,6 +20,10 @@ enum
 /* Height of the picture, in cells. */
 static const double PICTURE = 3.0;
 
+/* Of the way to the place: in narrow corners other parts of the model are in
+ * between. */
+static const double CLIP = 0.75;
+
 static const char STAGE[] = "render";
 
 typedef struct place
@@ -284,7 +288,7 @@ view_of(const place *p, double height)
 
     return (otx_camera){
         otx_vec3_add(target, otx_vec3_scale(distance, normal)), target,
-        OTX_CAMERA_FOV};
+        OTX_CAMERA_FOV, CLIP};
 }
 
 /* Says where it is, and how bad. */

@@ -14,7 +14,7 @@ enum
 int32_t otx_worst_seam_rank(const char *name);
 
 /* Looks at a place along its normal, from near enough that the picture is an
- * eighth of the model wide.
+ * eighth of the model wide, and through what stands before it.
  *
  *   rank  1 .. OTX_WORST_SEAM_MAX
  *   out   where places run out, the last of them

@@ -77,7 +77,7 @@ views_look_from_where_they_say(void **state)
 static void
 blind_cameras_are_told(void **state)
 {
-    otx_camera camera = {{0, 0, 1}, {0, 0, 0}, 1.0};
+    otx_camera camera = {{0, 0, 1}, {0, 0, 0}, 1.0, 0.0};
 
     (void)state;
     assert_true(otx_camera_is_valid(&camera));
@@ -95,7 +95,7 @@ blind_cameras_are_told(void **state)
 static void
 nothing_behind_the_eye_is_seen(void **state)
 {
-    const otx_camera camera = {{0, 0, 1}, {0, 0, 0}, 1.0};
+    const otx_camera camera = {{0, 0, 1}, {0, 0, 0}, 1.0, 0.0};
     const otx_camera_frame frame = otx_camera_aim(&camera, 10, 10);
     otx_vec2 at;
 

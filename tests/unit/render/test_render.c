@@ -33,7 +33,7 @@ a_sphere_covers_its_silhouette(void **state)
     /* The cone that touches a unit sphere, on a picture at distance 1. */
     const double rim = 1.0 / sqrt(distance * distance - 1.0);
     const otx_camera camera = {
-        {0.0, 0.0, distance}, {0.0, 0.0, 0.0}, 2.0 * atan(1.25 * rim)};
+        {0.0, 0.0, distance}, {0.0, 0.0, 0.0}, 2.0 * atan(1.25 * rim), 0.0};
     otx_render_options options = facing_options(&camera, 160);
     const double radius = 80.0 / 1.25;
     const otx_image image = render(run, &scene, &options);
@@ -41,6 +41,25 @@ a_sphere_covers_its_silhouette(void **state)
     (void)state;
     assert_true(
         fabs(sum_of_alpha(&image) / (OTX_PI * radius * radius) - 1.0) < 0.01);
+    test_run_destroy(run);
+}
+
+/* A square half way to what is looked at. */
+static void
+what_is_clipped_is_looked_through(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_scene scene = scene_quad(NULL);
+    otx_camera camera = {
+        {0.0, 0.0, 4.0}, {0.0, 0.0, -4.0}, OTX_CAMERA_FOV, 0.49};
+    const otx_render_options options = facing_options(&camera, 32);
+    otx_image image = render(run, &scene, &options);
+
+    (void)state;
+    assert_true(sum_of_alpha(&image) > 0.8 * 32 * 32);
+    camera.clip = 0.51;
+    image = render(run, &scene, &options);
+    assert_true(sum_of_alpha(&image) == 0.0);
     test_run_destroy(run);
 }
 
@@ -489,7 +508,7 @@ bad_options_are_refused(void **state)
     otx_run *run = test_run_create();
     const otx_scene scene = scene_quad(NULL);
     const otx_scene empty = {0};
-    const otx_camera blind = {{1, 2, 3}, {1, 2, 3}, 1.0};
+    const otx_camera blind = {{1, 2, 3}, {1, 2, 3}, 1.0, 0.0};
     otx_render_options options = otx_render_defaults();
 
     (void)state;
@@ -554,6 +573,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sphere_covers_its_silhouette),
+        cmocka_unit_test(what_is_clipped_is_looked_through),
         cmocka_unit_test(every_view_frames_the_model),
         cmocka_unit_test(magnified_texels_are_bilinear),
         cmocka_unit_test(minified_checker_is_its_mean),
