@@ -27,6 +27,14 @@ noise(otx_run *run, int32_t width, int32_t height)
     return image;
 }
 
+/* The texel (x, y) of `from` is put to (u, v). */
+static void
+put(const otx_image *from, int32_t x, int32_t y, const otx_image *to, int32_t u,
+    int32_t v)
+{
+    memcpy(otx_image_at(to, u, v), otx_image_at(from, x, y), 3 * sizeof(float));
+}
+
 static otx_edges
 find(otx_run *run, const otx_image *image, bool wrap)
 {
@@ -89,9 +97,7 @@ test_edges_turn_with_the_picture(void **state)
     (void)state;
     for (int32_t y = 0; y < 9; ++y)
         for (int32_t x = 0; x < 12; ++x)
-            for (int32_t c = 0; c < 3; ++c)
-                otx_image_at(&turned, 8 - y, x)[c] =
-                    otx_image_at(&image, x, y)[c];
+            put(&image, x, y, &turned, 8 - y, x);
 
     const otx_edges a = find(run, &image, false);
     const otx_edges b = find(run, &turned, false);
@@ -115,9 +121,7 @@ test_a_tiling_picture_has_no_rim(void **state)
     (void)state;
     for (int32_t y = 0; y < 6; ++y)
         for (int32_t x = 0; x < 20; ++x)
-            for (int32_t c = 0; c < 3; ++c)
-                otx_image_at(&twice, x, y)[c] =
-                    otx_image_at(&image, x % 10, y)[c];
+            put(&image, x % 10, y, &twice, x, y);
 
     const otx_edges a = find(run, &image, true);
     const otx_edges b = find(run, &twice, true);
