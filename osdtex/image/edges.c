@@ -26,7 +26,7 @@ beside(int32_t i, int32_t step, int32_t n, bool wrap)
 
     if (j >= 0 && j < n)
         return j;
-    return wrap ? (j + n) % n : i;
+    return wrap ? otx_image_wrap(j, n) : i;
 }
 
 /* Eight times the derivative along one axis, and along the other with the
