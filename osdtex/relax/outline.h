@@ -13,8 +13,8 @@
  * round everything else, it is the ground: 0 away from outlines, and features
  * are 1.
  *
- *   out  one channel, in run->scratch; about a square of 256 texels, whatever
- *        the size of the picture
+ *   out  one channel, in run->scratch; the picture halved until its sides are
+ *        340 texels at most
  *
  * MEMORY. */
 otx_status
