@@ -243,7 +243,7 @@ osdtex_cage_read(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "cage", &call));
-    return otx_call_end(&call, read_cage(&call, path, options, out));
+    return otx_call_end(&call, read_cage(&call, path, options, out), out);
 }
 
 /* Offsets of the corners from the sizes of the faces. */
@@ -330,7 +330,8 @@ osdtex_cage_create(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "cage", &call));
-    return otx_call_end(&call, create_cage(&call.run, arrays, options, out));
+    return otx_call_end(
+        &call, create_cage(&call.run, arrays, options, out), out);
 }
 
 const osdtex_cage_info *

@@ -56,20 +56,32 @@ add_time(osdtex_context *context, const char *stage, double seconds)
         context->times[context->time_count++] = (otx_call_time){stage, seconds};
 }
 
-otx_status
-otx_call_end(otx_call *call, otx_status status)
+/* What every end does: temporaries go, the time is kept. */
+static void
+finish(otx_call *call)
 {
     otx_arena_release(call->run.scratch, call->scratch);
     add_time(call->context, call->stage, now() - call->begun);
-    if (status != OSDTEX_OK)
-        otx_arena_destroy(call->run.arena);
+}
+
+otx_status
+otx_call_end(otx_call *call, otx_status status, void *out)
+{
+    void *const nothing = NULL;
+
+    finish(call);
+    if (status == OSDTEX_OK)
+        return status;
+    /* Handles are of many types; all pointers to them look alike. */
+    memcpy(out, &nothing, sizeof nothing);
+    otx_arena_destroy(call->run.arena);
     return status;
 }
 
 otx_status
 otx_call_drop(otx_call *call, otx_status status)
 {
-    otx_call_end(call, OSDTEX_OK);
+    finish(call);
     otx_arena_destroy(call->run.arena);
     return status;
 }

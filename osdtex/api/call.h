@@ -50,9 +50,11 @@ typedef struct otx_call
 otx_status
 otx_call_begin(osdtex_context *context, const char *stage, otx_call *call);
 
-/* Ends a call that made a handle in call->run.arena: the arena is destroyed
- * unless `status` is OSDTEX_OK. Returns `status`. */
-otx_status otx_call_end(otx_call *call, otx_status status);
+/* Ends a call that made a handle in call->run.arena. Unless `status` is
+ * OSDTEX_OK the arena is destroyed, and the caller's pointer, whose address is
+ * `out`, becomes NULL: a stage may have set it before it failed, and the host
+ * destroys what it was given. Returns `status`. */
+otx_status otx_call_end(otx_call *call, otx_status status, void *out);
 
 /* Ends a call that keeps nothing. Returns `status`. */
 otx_status otx_call_drop(otx_call *call, otx_status status);

@@ -261,7 +261,7 @@ osdtex_exemplar_read(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "exemplar", &call));
-    return otx_call_end(&call, read_exemplar(&call, path, options, out));
+    return otx_call_end(&call, read_exemplar(&call, path, options, out), out);
 }
 
 static otx_status
@@ -295,7 +295,8 @@ osdtex_exemplar_create(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "exemplar", &call));
-    return otx_call_end(&call, create_exemplar(&call, image, options, out));
+    return otx_call_end(
+        &call, create_exemplar(&call, image, options, out), out);
 }
 
 const osdtex_exemplar_info *

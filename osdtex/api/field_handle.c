@@ -195,7 +195,7 @@ osdtex_field_create(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "field", &call));
-    return otx_call_end(&call, create(&call.run, surface, options, out));
+    return otx_call_end(&call, create(&call.run, surface, options, out), out);
 }
 
 /* -- editing ------------------------------------------------------------- */
@@ -363,7 +363,8 @@ osdtex_field_edit(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "field", &call));
-    return otx_call_end(&call, edit(&call.run, field, constraint, reach, out));
+    return otx_call_end(
+        &call, edit(&call.run, field, constraint, reach, out), out);
 }
 
 const osdtex_field_info *

@@ -61,7 +61,7 @@ osdtex_image_create(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "image", &call));
-    return otx_call_end(&call, create(&call.run, &info, out));
+    return otx_call_end(&call, create(&call.run, &info, out), out);
 }
 
 /* Files differ in whether colour is multiplied by alpha; images are not. */
@@ -101,7 +101,7 @@ osdtex_image_read(osdtex_context *context, const char *path, osdtex_image **out)
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "image", &call));
-    return otx_call_end(&call, read_image(&call.run, path, out));
+    return otx_call_end(&call, read_image(&call.run, path, out), out);
 }
 
 const osdtex_image_info *

@@ -148,7 +148,8 @@ osdtex_map(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "map", &call));
-    return otx_call_end(&call, map(&call.run, surface, exemplar, options, out));
+    return otx_call_end(
+        &call, map(&call.run, surface, exemplar, options, out), out);
 }
 
 const osdtex_mapping_info *

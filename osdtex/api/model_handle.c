@@ -305,7 +305,7 @@ osdtex_model_read(osdtex_context *context, const char *path, osdtex_model **out)
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "model", &call));
-    return otx_call_end(&call, read_model(&call, path, out));
+    return otx_call_end(&call, read_model(&call, path, out), out);
 }
 
 /* The exemplar in scene_linear: borrowed where it is in that space already,
@@ -368,7 +368,7 @@ osdtex_model_create(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "model", &call));
-    return otx_call_end(&call, create_model(&call, mapping, out));
+    return otx_call_end(&call, create_model(&call, mapping, out), out);
 }
 
 static otx_status
@@ -411,7 +411,7 @@ osdtex_model_create_field(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "model", &call));
-    return otx_call_end(&call, create_from_field(&call.run, field, out));
+    return otx_call_end(&call, create_from_field(&call.run, field, out), out);
 }
 
 static otx_status

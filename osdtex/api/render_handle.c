@@ -115,5 +115,5 @@ osdtex_render(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "render", &call));
-    return otx_call_end(&call, render(&call.run, model, options, out));
+    return otx_call_end(&call, render(&call.run, model, options, out), out);
 }

@@ -117,7 +117,7 @@ osdtex_surface_refine(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "surface", &call));
-    return otx_call_end(&call, refine(&call, cage, options, out));
+    return otx_call_end(&call, refine(&call, cage, options, out), out);
 }
 
 const osdtex_surface_info *
