@@ -13,10 +13,10 @@ static const char STAGE[] = "bake";
 enum
 {
     BATCH = OTX_BAKE_SLOTS / 2,
-    BLOCK_TEXELS = OTX_PAGE_BLOCK * OTX_PAGE_BLOCK
+    BLOCK_TEXELS = OTX_MIP_BLOCK * OTX_MIP_BLOCK
 };
 
-/* Blocks of a page from `first` on, in slots from `slot` on. */
+/* Blocks of a mip level from `first` on, in slots from `slot` on. */
 typedef struct batch
 {
     int64_t first;
@@ -27,7 +27,7 @@ typedef struct batch
 typedef struct job
 {
     const otx_bake *bake;
-    const otx_page *page;
+    const otx_mip *mip;
     const otx_bake_sink *sink;
     batch done, next;
     int64_t overlaps[BATCH];
@@ -41,9 +41,9 @@ put_batch(const job *j)
         const int64_t index = j->done.first + i;
 
         OTX_TRY(j->sink->put(
-            j->sink->user, j->done.slot + i, j->page->level,
-            (int32_t)(index % j->page->columns),
-            (int32_t)(index / j->page->columns)));
+            j->sink->user, j->done.slot + i, j->mip->level,
+            (int32_t)(index % j->mip->columns),
+            (int32_t)(index / j->mip->columns)));
     }
     return OSDTEX_OK;
 }
@@ -56,17 +56,17 @@ make_block(job *j, int32_t i, otx_worker *worker)
     float *pixels =
         OTX_NEW(worker->scratch, float, BLOCK_TEXELS *(size_t)channels);
     otx_bake_block block = {
-        .level = j->page->level,
-        .x = (int32_t)(index % j->page->columns),
-        .y = (int32_t)(index / j->page->columns),
+        .level = j->mip->level,
+        .x = (int32_t)(index % j->mip->columns),
+        .y = (int32_t)(index / j->mip->columns),
         .pixels = pixels};
 
     j->overlaps[i] = 0;
     if (!pixels || !otx_texel_bake(
-                       &j->bake->source, j->page, block.x, block.y,
+                       &j->bake->source, j->mip, block.x, block.y,
                        worker->scratch, pixels, &j->overlaps[i]))
         return OSDTEX_ERROR_MEMORY;
-    block.stride = (ptrdiff_t)otx_page_block_size(j->page, block.x) * channels;
+    block.stride = (ptrdiff_t)otx_mip_block_size(j->mip, block.x) * channels;
     j->sink->take(j->sink->user, j->next.slot + i, worker->index, &block);
     return OSDTEX_OK;
 }
@@ -83,13 +83,13 @@ work(void *context, int64_t index, otx_worker *worker)
 
 /* Level 0 is three quarters of the work, and so on. */
 static double
-fraction_of(const otx_page *page, int64_t block)
+fraction_of(const otx_mip *mip, int64_t block)
 {
-    const double blocks = (double)page->columns * page->columns;
-    const double before = 1.0 - pow(0.25, page->level);
-    const double tiles = page->layout->tile_count;
+    const double blocks = (double)mip->columns * mip->columns;
+    const double before = 1.0 - pow(0.25, mip->level);
+    const double tiles = mip->layout->tile_count;
 
-    return (page->tile + before +
+    return (mip->tile + before +
             (1.0 - before) * 0.75 * (double)block / blocks) /
            tiles;
 }
@@ -97,7 +97,7 @@ fraction_of(const otx_page *page, int64_t block)
 static otx_status
 bake_page(otx_run *run, otx_bake *bake, job *j)
 {
-    const int64_t blocks = (int64_t)j->page->columns * j->page->columns;
+    const int64_t blocks = (int64_t)j->mip->columns * j->mip->columns;
 
     for (int64_t first = 0; first < blocks || j->done.count > 0;)
     {
@@ -106,12 +106,12 @@ bake_page(otx_run *run, otx_bake *bake, job *j)
 
         j->next.first = first;
         j->next.count = left < BATCH ? (int32_t)left : BATCH;
-        OTX_TRY(otx_progress(run, STAGE, fraction_of(j->page, first)));
+        OTX_TRY(otx_progress(run, STAGE, fraction_of(j->mip, first)));
         status = otx_pool_for(run->pool, j->next.count + 1, work, j);
         if (status == OSDTEX_ERROR_MEMORY)
             return otx_fail_memory(run, STAGE);
         OTX_TRY(status);
-        for (int32_t i = 0; j->page->level == 0 && i < j->next.count; ++i)
+        for (int32_t i = 0; j->mip->level == 0 && i < j->next.count; ++i)
             bake->overlaps += j->overlaps[i];
         first += j->next.count;
 
@@ -129,7 +129,7 @@ bake_levels(
 {
     const otx_layout *layout = bake->source.layout;
     const int32_t levels = otx_pyramid_count(layout->side, layout->side);
-    otx_page page = {.layout = layout, .tile = tile};
+    otx_mip mip = {.layout = layout, .tile = tile};
     job *j = OTX_ZNEW(run->scratch, job, 1);
 
     if (!j)
@@ -137,19 +137,19 @@ bake_levels(
     j->next.slot = BATCH;
     j->bake = bake;
     j->sink = sink;
-    j->page = &page;
-    OTX_TRY(otx_page_find_rims(
-        run, run->scratch, layout, tile, &page.rims, &page.rim_count));
+    j->mip = &mip;
+    OTX_TRY(otx_mip_find_rims(
+        run, run->scratch, layout, tile, &mip.rims, &mip.rim_count));
     if (bake->seam_blend > 0.0)
-        OTX_TRY(otx_page_find_seams(
+        OTX_TRY(otx_mip_find_seams(
             run, run->scratch, layout, bake->source.mapping->face_patch, tile,
-            &page.seams, &page.seam_count));
-    for (page.level = 0; page.level < levels; ++page.level)
+            &mip.seams, &mip.seam_count));
+    for (mip.level = 0; mip.level < levels; ++mip.level)
     {
         const otx_arena_mark mark = otx_arena_here(run->scratch);
 
-        page.blend = 0.5 * bake->seam_blend * pow(0.5, page.level);
-        OTX_TRY(otx_page_build(run, run->scratch, &page));
+        mip.blend = 0.5 * bake->seam_blend * pow(0.5, mip.level);
+        OTX_TRY(otx_mip_build(run, run->scratch, &mip));
         OTX_TRY(bake_page(run, bake, j));
         otx_arena_release(run->scratch, mark);
     }

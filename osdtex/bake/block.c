@@ -17,28 +17,27 @@ samples_of(int32_t level)
 static void
 place(otx_block *b, int32_t x, int32_t y)
 {
-    const otx_page *page = b->page;
-    const int32_t top = page->side - y * OTX_PAGE_BLOCK;
-    const int32_t apron = otx_block_is_fitted(b) ? OTX_PAGE_APRON : 0;
-    const int32_t left = x * OTX_PAGE_BLOCK;
+    const otx_mip *mip = b->mip;
+    const int32_t top = mip->side - y * OTX_MIP_BLOCK;
+    const int32_t apron = otx_block_is_fitted(b) ? OTX_MIP_APRON : 0;
+    const int32_t left = x * OTX_MIP_BLOCK;
 
-    b->width = otx_page_block_size(page, x);
-    b->height = otx_page_block_size(page, y);
+    b->width = otx_mip_block_size(mip, x);
+    b->height = otx_mip_block_size(mip, y);
     b->left = left > 0 ? apron : 0;
     b->below = top > b->height ? apron : 0;
     b->raster = (otx_raster){
         .origin = {left - b->left, top - b->height - b->below},
-        .width =
-            b->width + b->left + (left + b->width < page->side ? apron : 0),
+        .width = b->width + b->left + (left + b->width < mip->side ? apron : 0),
         .height = b->height + b->below + (y > 0 ? apron : 0),
-        .n = samples_of(page->level),
+        .n = samples_of(mip->level),
     };
 }
 
 static bool
 allocate(otx_block *b, otx_arena *scratch)
 {
-    b->pieces = OTX_NEW(scratch, otx_piece, OTX_BLOCK_PIECES);
+    b->pieces = OTX_NEW(scratch, otx_mip_facet, OTX_BLOCK_PIECES);
     if (!b->pieces || !otx_raster_begin(scratch, &b->raster) ||
         !otx_raster_near_begin(scratch, &b->raster, &b->near_rim) ||
         !otx_raster_near_begin(scratch, &b->raster, &b->near_seam))
@@ -58,11 +57,12 @@ draw_face(otx_block *b, int32_t face)
     {
         const otx_facet facet = otx_facet_at(leaf, face, k);
         const otx_vec2 p[3] = {
-            otx_page_texel(b->page, facet.corners[0]),
-            otx_page_texel(b->page, facet.corners[1]),
-            otx_page_texel(b->page, facet.corners[2])};
+            otx_mip_texel(b->mip, facet.corners[0]),
+            otx_mip_texel(b->mip, facet.corners[1]),
+            otx_mip_texel(b->mip, facet.corners[2])};
 
-        overlaps += otx_raster_triangle(&b->raster, p, otx_piece_id(face, k));
+        overlaps +=
+            otx_raster_triangle(&b->raster, p, otx_mip_facet_id(face, k));
     }
     return overlaps;
 }
@@ -73,8 +73,8 @@ draw_faces(otx_block *b, int64_t index)
 {
     const otx_layout *layout = b->source->layout;
     const int32_t *faces =
-        layout->tile_faces + layout->tile_first[b->page->tile];
-    const otx_bin *bin = &b->page->faces;
+        layout->tile_faces + layout->tile_first[b->mip->tile];
+    const otx_bin *bin = &b->mip->faces;
     int64_t overlaps = 0;
 
     for (int64_t i = bin->first[index]; i < bin->first[index + 1]; ++i)
@@ -85,50 +85,50 @@ draw_faces(otx_block *b, int64_t index)
 /* Those of `edges` in a bin, as far as `radius` texels around them. */
 static void
 draw_edges(
-    const otx_block *b, const otx_page_rim *edges, const otx_bin *bin,
+    const otx_block *b, const otx_mip_rim *edges, const otx_bin *bin,
     int64_t index, double radius, otx_raster_near *near)
 {
     for (int64_t i = bin->first[index]; i < bin->first[index + 1]; ++i)
     {
         otx_vec2 ends[2];
 
-        otx_page_ends(b->page, &edges[bin->items[i]], ends);
+        otx_mip_ends(b->mip, &edges[bin->items[i]], ends);
         otx_raster_edge(&b->raster, ends, radius, bin->items[i], near);
     }
 }
 
 bool
 otx_block_draw(
-    const otx_texel_source *source, const otx_page *page, int32_t x, int32_t y,
+    const otx_texel_source *source, const otx_mip *mip, int32_t x, int32_t y,
     otx_arena *scratch, otx_block *out, int64_t *overlaps)
 {
-    const int64_t index = (int64_t)y * page->columns + x;
-    const int64_t rim = page->near_rims.first[index];
+    const int64_t index = (int64_t)y * mip->columns + x;
+    const int64_t rim = mip->near_rims.first[index];
 
     *out = (otx_block){
         .source = source,
-        .page = page,
-        .rims = page->near_rims.items + rim,
-        .rim_count = page->near_rims.first[index + 1] - rim,
-        .far_rim = page->far_rim[index],
+        .mip = mip,
+        .rims = mip->near_rims.items + rim,
+        .rim_count = mip->near_rims.first[index + 1] - rim,
+        .far_rim = mip->far_rim[index],
     };
     place(out, x, y);
     if (!allocate(out, scratch))
         return false;
     *overlaps += draw_faces(out, index);
     draw_edges(
-        out, page->rims, &page->near_rims, index, page->gutter, &out->near_rim);
+        out, mip->rims, &mip->near_rims, index, mip->gutter, &out->near_rim);
     draw_edges(
-        out, page->seams, &page->near_seams, index, page->blend,
-        &out->near_seam);
+        out, mip->seams, &mip->near_seams, index, mip->blend, &out->near_seam);
     return true;
 }
 
 otx_walk
-otx_block_walk(const otx_block *block, const otx_piece *piece, otx_vec2 texel)
+otx_block_walk(
+    const otx_block *block, const otx_mip_facet *placed, otx_vec2 texel)
 {
     const otx_layout *layout = block->source->layout;
-    otx_walk walk = otx_piece_place(piece, texel);
+    otx_walk walk = otx_mip_facet_place(placed, texel);
 
     otx_walk_on(layout->surface, layout->covered, STEPS, &walk);
     return walk;

@@ -2,7 +2,7 @@
 #ifndef OTX_BAKE_BLOCK_H
 #define OTX_BAKE_BLOCK_H
 
-#include "bake/piece.h"
+#include "bake/mip_facet.h"
 #include "bake/raster.h"
 
 enum
@@ -11,18 +11,18 @@ enum
     OTX_BLOCK_SAMPLES_MAX = 4 /* to a texel's side */
 };
 
-/* The texels of a page's block, with an apron of texels around them where they
- * are fitted to lookups. */
+/* The texels of a mip level's block, with an apron of texels around them where
+ * they are fitted to lookups. */
 typedef struct otx_block
 {
     const otx_texel_source *source;
-    const otx_page *page;
+    const otx_mip *mip;
     int32_t width, height; /* without the apron */
     int32_t left, below;   /* of the apron; 0 at the picture's border */
     otx_raster raster;     /* with it */
     otx_raster_near near_rim, near_seam;
-    otx_piece *pieces;   /* [OTX_BLOCK_PIECES], by hash of their id */
-    const int32_t *rims; /* [rim_count] near the block */
+    otx_mip_facet *pieces; /* [OTX_BLOCK_PIECES], by hash of their id */
+    const int32_t *rims;   /* [rim_count] near the block */
     int64_t rim_count;
     int32_t far_rim;
 } otx_block;
@@ -32,18 +32,18 @@ typedef struct otx_block
  *
  *   overlaps  added to: samples that several faces claim */
 bool otx_block_draw(
-    const otx_texel_source *source, const otx_page *page, int32_t x, int32_t y,
+    const otx_texel_source *source, const otx_mip *mip, int32_t x, int32_t y,
     otx_arena *scratch, otx_block *out, int64_t *overlaps);
 
-/* Where a walk from a piece to a texel position ends. */
-otx_walk
-otx_block_walk(const otx_block *block, const otx_piece *piece, otx_vec2 texel);
+/* Where a walk from a facet to a texel position ends. */
+otx_walk otx_block_walk(
+    const otx_block *block, const otx_mip_facet *placed, otx_vec2 texel);
 
 /* Whether lookups come close to texels: they do to those of level 0. */
 static inline bool
 otx_block_is_fitted(const otx_block *block)
 {
-    return block->page->level == 0 && block->source->kind == OTX_TEXEL_COLOR;
+    return block->mip->level == 0 && block->source->kind == OTX_TEXEL_COLOR;
 }
 
 /* Index of a texel of the raster. */
@@ -53,7 +53,7 @@ otx_block_index(const otx_block *block, int32_t x, int32_t y)
     return (size_t)y * (size_t)block->raster.width + (size_t)x;
 }
 
-/* Id of the piece at sample s of a texel; -1 none. */
+/* Id of the facet at sample s of a texel; -1 none. */
 static inline int64_t
 otx_block_sample(const otx_block *block, int32_t x, int32_t y, int32_t s)
 {
@@ -63,29 +63,29 @@ otx_block_sample(const otx_block *block, int32_t x, int32_t y, int32_t s)
         .facets[(size_t)j * (size_t)(block->raster.width * n) + (size_t)i];
 }
 
-/* A piece, made when it is first met; holds until the next call. */
-static inline const otx_piece *
+/* A facet, made when it is first met; holds until the next call. */
+static inline const otx_mip_facet *
 otx_block_piece(otx_block *block, int64_t id)
 {
-    otx_piece *piece =
+    otx_mip_facet *placed =
         &block->pieces[((id >> 16) * 2 + (id & 1)) & (OTX_BLOCK_PIECES - 1)];
 
-    if (piece->id != id)
-        *piece = otx_piece_make(
-            block->source, block->page, 1.0 / block->raster.n, id);
-    return piece;
+    if (placed->id != id)
+        *placed = otx_mip_facet_make(
+            block->source, block->mip, 1.0 / block->raster.n, id);
+    return placed;
 }
 
-/* The piece that a rim or a seam is a side of. */
-static inline const otx_piece *
-otx_block_rim_piece(otx_block *block, const otx_page_rim *rim)
+/* The facet that a rim or a seam is a side of. */
+static inline const otx_mip_facet *
+otx_block_rim_piece(otx_block *block, const otx_mip_rim *rim)
 {
     const otx_level *leaf = otx_surface_leaf(block->source->layout->surface);
     int32_t side;
     const otx_facet facet =
         otx_facet_at_edge(leaf, rim->face, rim->edge, &side);
 
-    return otx_block_piece(block, otx_piece_id(facet.face, facet.index));
+    return otx_block_piece(block, otx_mip_facet_id(facet.face, facet.index));
 }
 
 #endif

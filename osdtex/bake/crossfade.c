@@ -10,14 +10,14 @@
  */
 static bool
 color_across(
-    otx_block *block, const otx_page_rim *seam, int32_t patch, otx_vec2 at,
+    otx_block *block, const otx_mip_rim *seam, int32_t patch, otx_vec2 at,
     float *color)
 {
     const otx_layout *layout = block->source->layout;
     const otx_level *leaf = otx_surface_leaf(layout->surface);
     const int32_t *patches = block->source->mapping->face_patch;
     const int32_t other = otx_level_neighbour(leaf, seam->face, seam->edge);
-    otx_walk walk = otx_piece_place(otx_block_rim_piece(block, seam), at);
+    otx_walk walk = otx_mip_facet_place(otx_block_rim_piece(block, seam), at);
 
     if (patch == patches[seam->face])
     {
@@ -34,10 +34,10 @@ color_across(
 
 /* Mixes a texel with what is across a seam `distance_sq` away. */
 static void
-mix(otx_block *block, const otx_page_rim *seam, double distance_sq,
+mix(otx_block *block, const otx_mip_rim *seam, double distance_sq,
     int32_t patch, otx_vec2 at, float *color)
 {
-    const double t = 0.5 * (1.0 - sqrt(distance_sq) / block->page->blend);
+    const double t = 0.5 * (1.0 - sqrt(distance_sq) / block->mip->blend);
     float across[OTX_IMAGE_MAX_CHANNELS];
 
     if (!(t > 0.0) || !color_across(block, seam, patch, at, across))
@@ -56,9 +56,10 @@ otx_crossfade_inside(
     if (seam < 0)
         return;
 
-    const int32_t face = otx_piece_face(otx_block_sample(block, x, y, first));
+    const int32_t face =
+        otx_mip_facet_face(otx_block_sample(block, x, y, first));
 
-    mix(block, &block->page->seams[seam], block->near_seam.distance[i],
+    mix(block, &block->mip->seams[seam], block->near_seam.distance[i],
         block->source->mapping->face_patch[face],
         otx_raster_texel(&block->raster, x, y), color);
 }
@@ -69,9 +70,9 @@ otx_crossfade_beyond(otx_block *block, int32_t x, int32_t y, float *color)
     const size_t i = otx_block_index(block, x, y);
     const otx_layout *layout = block->source->layout;
     const int32_t *patches = block->source->mapping->face_patch;
-    const otx_page_rim *rim = &block->page->rims[block->near_rim.edges[i]];
+    const otx_mip_rim *rim = &block->mip->rims[block->near_rim.edges[i]];
 
-    if (block->page->seam_count == 0 || !otx_page_is_seam(layout, patches, rim))
+    if (block->mip->seam_count == 0 || !otx_mip_is_seam(layout, patches, rim))
         return;
 
     const int32_t other = otx_layout_across(layout, rim->face, rim->edge);

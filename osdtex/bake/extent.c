@@ -1,7 +1,7 @@
 /* extent.c -- means of the two derivatives over a face. */
 #include "bake/extent.h"
 
-#include "bake/spread.h"
+#include "bake/fvar_linear.h"
 
 /* Blocks are no longer than this times their width. */
 static const double LONGEST = 16.0;
@@ -127,7 +127,7 @@ measure(
             cage_uvs[2 * (size_t)(first + k) + 1] = (float)at.y;
         }
     }
-    OTX_TRY(otx_spread_linear(run, surface, cage_uvs, leaf_uvs));
+    OTX_TRY(otx_fvar_linear(run, surface, cage_uvs, leaf_uvs));
     for (int32_t f = 0; f < cage->face_count; ++f)
         measure_face(surface, leaf_uvs, f, extents + 2 * (size_t)f);
     return OSDTEX_OK;

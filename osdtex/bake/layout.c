@@ -2,7 +2,7 @@
 #include "bake/layout.h"
 
 #include "bake/atlas.h"
-#include "bake/spread.h"
+#include "bake/fvar_linear.h"
 #include "image/udim.h"
 #include "math/vec.h"
 
@@ -57,7 +57,7 @@ make_atlas(otx_run *run, const otx_layout_options *options, otx_layout *out)
     if (!leaf_uvs || !face_uvs)
         return otx_fail_memory(run, STAGE);
     OTX_TRY(otx_atlas_pack(run, surface, &how, &atlas));
-    OTX_TRY(otx_spread_linear(run, surface, atlas.uvs, leaf_uvs));
+    OTX_TRY(otx_fvar_linear(run, surface, atlas.uvs, leaf_uvs));
     for (int32_t c = 0; c < cage_corners; ++c)
         face_uvs[c] = c;
     out->is_atlas = true;

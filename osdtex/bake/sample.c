@@ -17,10 +17,11 @@ otx_sample_at(
     }
 
     const otx_texture_probes probes = otx_texture_measure(
-        texture, otx_vec2_scale(share, otx_piece_mix(mapping, facet, walk->dx)),
-        otx_vec2_scale(share, otx_piece_mix(mapping, facet, walk->dy)));
+        texture,
+        otx_vec2_scale(share, otx_mip_facet_mix(mapping, facet, walk->dx)),
+        otx_vec2_scale(share, otx_mip_facet_mix(mapping, facet, walk->dy)));
 
     otx_sample_probe(
-        source, texture, &probes, otx_piece_mix(mapping, facet, walk->at),
+        source, texture, &probes, otx_mip_facet_mix(mapping, facet, walk->at),
         color);
 }

@@ -2,8 +2,8 @@
 #ifndef OTX_BAKE_SAMPLE_H
 #define OTX_BAKE_SAMPLE_H
 
+#include "bake/mip_facet.h"
 #include "bake/mixture.h"
-#include "bake/piece.h"
 
 /* A lookup with all channels that are baked: a picture without alpha is opaque
  * beside one that has it. */
@@ -17,21 +17,22 @@ otx_sample_probe(
         color[3] = 1.0f;
 }
 
-/* At a texel position on a piece that was made with this share. */
+/* At a texel position on a facet that was made with this share. */
 static inline void
 otx_sample_on_piece(
-    const otx_texel_source *source, const otx_piece *piece, double share,
+    const otx_texel_source *source, const otx_mip_facet *placed, double share,
     otx_vec2 at, float *color)
 {
-    if (otx_mixture_has(source->mapping, piece->facet.face))
+    if (otx_mixture_has(source->mapping, placed->facet.face))
     {
-        const otx_walk walk = otx_piece_place(piece, at);
+        const otx_walk walk = otx_mip_facet_place(placed, at);
 
-        otx_mixture_color(source, piece->texture, &walk, share, color);
+        otx_mixture_color(source, placed->texture, &walk, share, color);
         return;
     }
     otx_sample_probe(
-        source, piece->texture, &piece->probes, otx_piece_uv(piece, at), color);
+        source, placed->texture, &placed->probes, otx_mip_facet_uv(placed, at),
+        color);
 }
 
 /* At a place that a walk came to. */

@@ -1,15 +1,15 @@
 /* texel.c -- what the texels of a baked texture show.
  *
- * Texels on the surface are bake/inside.h's, those beyond the rims
- * bake/beyond.h's, and numbers bake/number.h's. Here colours are fitted to
+ * Texels on the surface are bake/resolve.h's, those beyond the rims
+ * bake/gutter.h's, and numbers bake/aov.h's. Here colours are fitted to
  * how a renderer looks them up: sharpened, and joined across cuts. */
 #include "bake/texel.h"
 
-#include "bake/beyond.h"
+#include "bake/aov.h"
 #include "bake/crossfade.h"
-#include "bake/inside.h"
-#include "bake/join.h"
-#include "bake/number.h"
+#include "bake/gutter.h"
+#include "bake/resolve.h"
+#include "bake/seam_fit.h"
 
 #include <string.h>
 
@@ -24,7 +24,7 @@ typedef struct picture
     otx_block block;
     float *pixels, *sharp; /* of the raster; those that are sharpened */
     int32_t *owners;       /* likewise: charts, -1 beyond the rims */
-    otx_beyond beyond;
+    otx_gutter beyond;
 } picture;
 
 static void
@@ -34,18 +34,18 @@ shade_texel(picture *p, int32_t x, int32_t y)
     const size_t i = otx_block_index(block, x, y);
     float *out = p->pixels + i * (size_t)block->source->channels;
     int32_t first;
-    const int32_t chart = otx_inside_owner(block, x, y, &first);
+    const int32_t chart = otx_resolve_owner(block, x, y, &first);
 
     p->owners[i] = chart;
     if (chart < 0)
-        otx_beyond_texel(block, x, y, &p->beyond, out);
+        otx_gutter_texel(block, x, y, &p->beyond, out);
     else if (block->source->kind == OTX_TEXEL_COLOR)
     {
-        otx_inside_color(block, x, y, chart, first, out);
+        otx_resolve_color(block, x, y, chart, first, out);
         otx_crossfade_inside(block, x, y, first, out);
     }
     else
-        otx_number_inside(block, x, y, first, out);
+        otx_aov_inside(block, x, y, first, out);
 }
 
 /* Whether a texel is of the block, or of its apron and looked at: by the
@@ -75,17 +75,17 @@ shade(picture *p)
 
 /* Texels as lookups want them, without the apron. */
 static void
-fit(const picture *p, float *pixels)
+fit_to_lookups(const picture *p, float *pixels)
 {
     const otx_block *block = &p->block;
     const otx_texel_source *source = block->source;
     const int32_t width = block->raster.width, height = block->raster.height;
     otx_sharpen_grid grid = {
         width, height, source->channels, p->pixels, p->owners};
-    const otx_join join = {
+    const otx_seam_fit fit = {
         .mapping = source->mapping,
         .textures = source->textures,
-        .page = block->page,
+        .mip = block->mip,
         .raster = &block->raster,
         .near_rim = &block->near_rim,
         .near_seam = &block->near_seam,
@@ -93,26 +93,26 @@ fit(const picture *p, float *pixels)
         .low = source->low,
         .high = source->high,
     };
-    otx_join_edge edge = {.rim = -1};
+    otx_seam_fit_edge edge = {.rim = -1};
 
     otx_sharpen_texels(&grid, 0, 0, width, height, p->sharp);
     grid.pixels = p->sharp;
     for (int32_t y = block->below; y < block->below + block->height; ++y)
         for (int32_t x = block->left; x < block->left + block->width; ++x)
         {
-            otx_join_texel(&join, x, y, &edge, pixels);
+            otx_seam_fit_texel(&fit, x, y, &edge, pixels);
             pixels += source->channels;
         }
 }
 
 bool
 otx_texel_bake(
-    const otx_texel_source *source, const otx_page *page, int32_t x, int32_t y,
+    const otx_texel_source *source, const otx_mip *mip, int32_t x, int32_t y,
     otx_arena *scratch, float *pixels, int64_t *overlaps)
 {
-    picture p = {.beyond = otx_beyond_begin()};
+    picture p = {.beyond = otx_gutter_begin()};
 
-    if (!otx_block_draw(source, page, x, y, scratch, &p.block, overlaps))
+    if (!otx_block_draw(source, mip, x, y, scratch, &p.block, overlaps))
         return false;
 
     const size_t texels =
@@ -127,7 +127,7 @@ otx_texel_bake(
     shade(&p);
     /* Only texels that are fitted have an apron. */
     if (otx_block_is_fitted(&p.block))
-        fit(&p, pixels);
+        fit_to_lookups(&p, pixels);
     else
         memcpy(pixels, p.pixels, values * sizeof *pixels);
     return true;

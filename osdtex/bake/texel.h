@@ -2,7 +2,7 @@
 #ifndef OTX_BAKE_TEXEL_H
 #define OTX_BAKE_TEXEL_H
 
-#include "bake/page.h"
+#include "bake/mip_level.h"
 #include "bake/texel_source.h"
 
 /* Bakes one block into pixels[height * width * channels], bottom row first.
@@ -12,7 +12,7 @@
  *
  * False when memory is out. */
 bool otx_texel_bake(
-    const otx_texel_source *source, const otx_page *page, int32_t x, int32_t y,
+    const otx_texel_source *source, const otx_mip *mip, int32_t x, int32_t y,
     otx_arena *scratch, float *pixels, int64_t *overlaps);
 
 #endif

@@ -87,18 +87,18 @@ static inline void
 flat_take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 {
     const otx_image *image = &((flat_levels *)user)->levels[block->level];
-    const int32_t left = block->x * OTX_PAGE_BLOCK;
-    const int32_t top = block->y * OTX_PAGE_BLOCK;
+    const int32_t left = block->x * OTX_MIP_BLOCK;
+    const int32_t top = block->y * OTX_MIP_BLOCK;
 
     (void)slot;
     (void)lane;
 
-    for (int32_t j = 0; j < OTX_PAGE_BLOCK && top + j < image->height; ++j)
-        for (int32_t i = 0; i < OTX_PAGE_BLOCK && left + i < image->width; ++i)
+    for (int32_t j = 0; j < OTX_MIP_BLOCK && top + j < image->height; ++j)
+        for (int32_t i = 0; i < OTX_MIP_BLOCK && left + i < image->width; ++i)
         {
-            const int32_t high = image->height - top < OTX_PAGE_BLOCK
+            const int32_t high = image->height - top < OTX_MIP_BLOCK
                                      ? image->height - top
-                                     : OTX_PAGE_BLOCK;
+                                     : OTX_MIP_BLOCK;
 
             memcpy(
                 otx_image_at(image, left + i, image->height - 1 - top - j),

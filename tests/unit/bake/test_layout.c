@@ -2,7 +2,7 @@
 #include "unit/bake/flat.h"
 
 #include "bake/atlas.h"
-#include "bake/spread.h"
+#include "bake/fvar_linear.h"
 
 static otx_cage
 cage_of(otx_run *run, const char *path)
@@ -127,7 +127,7 @@ the_rule_is_opensubdivs(void **state)
 
         otx_atlas_pack(run, &surface, &options, &atlas);
         assert_int_equal(
-            otx_spread_linear(run, &surface, atlas.uvs, ours), OSDTEX_OK);
+            otx_fvar_linear(run, &surface, atlas.uvs, ours), OSDTEX_OK);
         for (int32_t c = 0; c < cage.corner_count; ++c)
             face_uvs[c] = c;
         cage.uv_count = cage.corner_count;

@@ -1,6 +1,6 @@
-/* spread.h -- texture coordinates of the cage's corners, on the leaves. */
-#ifndef OTX_BAKE_SPREAD_H
-#define OTX_BAKE_SPREAD_H
+/* fvar_linear.h -- texture coordinates of the cage's corners, on the leaves. */
+#ifndef OTX_BAKE_FVAR_LINEAR_H
+#define OTX_BAKE_FVAR_LINEAR_H
 
 #include "surface/surface.h"
 
@@ -13,7 +13,7 @@
  *   leaf_uvs  [leaf corner_count * 2], out
  *
  * MEMORY. */
-otx_status otx_spread_linear(
+otx_status otx_fvar_linear(
     otx_run *run, const otx_surface *surface, const float *cage_uvs,
     float *leaf_uvs);
 

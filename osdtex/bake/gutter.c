@@ -1,8 +1,8 @@
-/* beyond.c -- texels beyond the rims of all charts. */
-#include "bake/beyond.h"
+/* gutter.c -- texels beyond the rims of all charts. */
+#include "bake/gutter.h"
 
+#include "bake/aov.h"
 #include "bake/crossfade.h"
-#include "bake/number.h"
 #include "bake/sample.h"
 
 #include <string.h>
@@ -12,10 +12,10 @@ enum
     NOT_LOOKED_FOR = -2
 };
 
-otx_beyond
-otx_beyond_begin(void)
+otx_gutter
+otx_gutter_begin(void)
 {
-    otx_beyond out;
+    otx_gutter out;
 
     for (size_t i = 0; i < sizeof out.rims / sizeof *out.rims; ++i)
         out.rims[i] = NOT_LOOKED_FOR;
@@ -24,16 +24,16 @@ otx_beyond_begin(void)
 
 /* The point of a rim nearest to a texel position, in texels. */
 static otx_vec2
-nearest_on(const otx_page *page, int32_t rim, otx_vec2 texel)
+nearest_on(const otx_mip *mip, int32_t rim, otx_vec2 texel)
 {
     otx_vec2 ends[2];
 
-    otx_page_ends(page, &page->rims[rim], ends);
+    otx_mip_ends(mip, &mip->rims[rim], ends);
     return otx_vec2_lerp(
         ends[0], ends[1], otx_raster_nearest(ends[0], ends[1], texel));
 }
 
-/* The nearest of the rims around the block; -1 when the page has none. */
+/* The nearest of the rims around the block; -1 when the mip level has none. */
 static int32_t
 nearest_rim(const otx_block *block, otx_vec2 texel)
 {
@@ -43,7 +43,7 @@ nearest_rim(const otx_block *block, otx_vec2 texel)
     for (int64_t i = 0; i < block->rim_count; ++i)
     {
         const otx_vec2 d =
-            otx_vec2_sub(texel, nearest_on(block->page, block->rims[i], texel));
+            otx_vec2_sub(texel, nearest_on(block->mip, block->rims[i], texel));
         const double sq = otx_vec2_dot(d, d);
 
         if (sq < best_sq)
@@ -57,13 +57,13 @@ nearest_rim(const otx_block *block, otx_vec2 texel)
 
 /* That of a texel's cell. */
 static int32_t
-rim_of_cell(const otx_block *block, int32_t x, int32_t y, otx_beyond *found)
+rim_of_cell(const otx_block *block, int32_t x, int32_t y, otx_gutter *found)
 {
     enum
     {
-        CELL = OTX_BEYOND_CELL
+        CELL = OTX_GUTTER_CELL
     };
-    int32_t *rim = &found->rims[y / CELL * OTX_BEYOND_CELLS + x / CELL];
+    int32_t *rim = &found->rims[y / CELL * OTX_GUTTER_CELLS + x / CELL];
 
     if (*rim == NOT_LOOKED_FOR)
         *rim = nearest_rim(
@@ -76,10 +76,10 @@ rim_of_cell(const otx_block *block, int32_t x, int32_t y, otx_beyond *found)
 /* What a texel shows; false when there is nothing. */
 static bool
 find_place(
-    otx_block *block, int32_t x, int32_t y, otx_beyond *found, otx_walk *out)
+    otx_block *block, int32_t x, int32_t y, otx_gutter *found, otx_walk *out)
 {
     const otx_vec2 at = otx_raster_texel(&block->raster, x, y);
-    const otx_page_rim *rims = block->page->rims;
+    const otx_mip_rim *rims = block->mip->rims;
     const int32_t near = block->near_rim.edges[otx_block_index(block, x, y)];
 
     if (near >= 0)
@@ -93,15 +93,15 @@ find_place(
 
     if (far < 0)
         return false;
-    *out = otx_piece_place(
+    *out = otx_mip_facet_place(
         otx_block_rim_piece(block, &rims[far]),
-        nearest_on(block->page, far, at));
+        nearest_on(block->mip, far, at));
     return true;
 }
 
 void
-otx_beyond_texel(
-    otx_block *block, int32_t x, int32_t y, otx_beyond *found, float *out)
+otx_gutter_texel(
+    otx_block *block, int32_t x, int32_t y, otx_gutter *found, float *out)
 {
     const otx_texel_source *source = block->source;
     otx_walk walk;
@@ -113,7 +113,7 @@ otx_beyond_texel(
     }
     if (source->kind != OTX_TEXEL_COLOR)
     {
-        otx_number_beyond(block, x, y, &walk, out);
+        otx_aov_gutter(block, x, y, &walk, out);
         return;
     }
     otx_sample_at(source, &walk, 1.0, out);

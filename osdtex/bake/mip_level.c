@@ -1,5 +1,5 @@
-/* page.c -- what each block of a level has to look at. */
-#include "bake/page.h"
+/* mip_level.c -- what each block of a level has to look at. */
+#include "bake/mip_level.h"
 
 #include "bake/facet.h"
 #include "image/pyramid.h"
@@ -47,9 +47,9 @@ typedef struct choice
 } choice;
 
 bool
-otx_page_is_seam(
+otx_mip_is_seam(
     const otx_layout *layout, const int32_t *face_patch,
-    const otx_page_rim *edge)
+    const otx_mip_rim *edge)
 {
     const int32_t other = otx_layout_across(layout, edge->face, edge->edge);
 
@@ -65,18 +65,18 @@ is_listed(const choice *c, int32_t face, int32_t k)
         return false;
     if (!c->face_patch)
         return c->layout->rim[leaf->face_first[face] + k];
-    return otx_page_is_seam(c->layout, c->face_patch, &(otx_page_rim){face, k});
+    return otx_mip_is_seam(c->layout, c->face_patch, &(otx_mip_rim){face, k});
 }
 
 /* Lists the edges of a tile: [*count] in `arena`. */
 static otx_status
 list_edges(
     otx_run *run, otx_arena *arena, const choice *c, int32_t tile,
-    const otx_page_rim **edges, int32_t *count)
+    const otx_mip_rim **edges, int32_t *count)
 {
     const otx_layout *layout = c->layout;
     const otx_level *leaf = otx_surface_leaf(layout->surface);
-    otx_page_rim *out = NULL;
+    otx_mip_rim *out = NULL;
 
     /* First the count, then the list. */
     for (int32_t pass = 0; pass < 2; ++pass)
@@ -93,13 +93,13 @@ list_edges(
                 if (!is_listed(c, f, k))
                     continue;
                 if (out)
-                    out[n] = (otx_page_rim){f, k};
+                    out[n] = (otx_mip_rim){f, k};
                 ++n;
             }
         }
         *count = n;
         if (!out)
-            out = OTX_NEW(arena, otx_page_rim, n);
+            out = OTX_NEW(arena, otx_mip_rim, n);
         if (!out)
             return otx_fail_memory(run, STAGE);
     }
@@ -108,9 +108,9 @@ list_edges(
 }
 
 otx_status
-otx_page_find_rims(
+otx_mip_find_rims(
     otx_run *run, otx_arena *arena, const otx_layout *layout, int32_t tile,
-    const otx_page_rim **rims, int32_t *count)
+    const otx_mip_rim **rims, int32_t *count)
 {
     const choice rim = {layout, NULL};
 
@@ -118,9 +118,9 @@ otx_page_find_rims(
 }
 
 otx_status
-otx_page_find_seams(
+otx_mip_find_seams(
     otx_run *run, otx_arena *arena, const otx_layout *layout,
-    const int32_t *face_patch, int32_t tile, const otx_page_rim **seams,
+    const int32_t *face_patch, int32_t tile, const otx_mip_rim **seams,
     int32_t *count)
 {
     const choice seam = {layout, face_patch};
@@ -136,8 +136,8 @@ otx_page_find_seams(
 static void
 cut(double low, double high, int32_t columns, int32_t *first, int32_t *end)
 {
-    const double a = floor((low - OTX_PAGE_APRON) / OTX_PAGE_BLOCK);
-    const double b = floor((high + OTX_PAGE_APRON) / OTX_PAGE_BLOCK) + 1.0;
+    const double a = floor((low - OTX_MIP_APRON) / OTX_MIP_BLOCK);
+    const double b = floor((high + OTX_MIP_APRON) / OTX_MIP_BLOCK) + 1.0;
 
     *first = a > 0.0 ? a < columns ? (int32_t)a : columns : 0;
     *end = b > 0.0 ? b < columns ? (int32_t)b : columns : 0;
@@ -145,12 +145,12 @@ cut(double low, double high, int32_t columns, int32_t *first, int32_t *end)
 
 /* Rows count from the top, and so do texels here. */
 static otx_bin_box
-box_of(const otx_page *page, otx_vec2 low, otx_vec2 high)
+box_of(const otx_mip *mip, otx_vec2 low, otx_vec2 high)
 {
     otx_bin_box box;
 
-    cut(low.x, high.x, page->columns, &box.x, &box.x_end);
-    cut(page->side - high.y, page->side - low.y, page->columns, &box.y,
+    cut(low.x, high.x, mip->columns, &box.x, &box.x_end);
+    cut(mip->side - high.y, mip->side - low.y, mip->columns, &box.y,
         &box.y_end);
     return box;
 }
@@ -158,57 +158,57 @@ box_of(const otx_page *page, otx_vec2 low, otx_vec2 high)
 static otx_bin_box
 box_of_face(const void *context, int32_t index)
 {
-    const otx_page *page = context;
-    const otx_layout *layout = page->layout;
+    const otx_mip *mip = context;
+    const otx_layout *layout = mip->layout;
     const otx_level *leaf = otx_surface_leaf(layout->surface);
     const int32_t face =
-        layout->tile_faces[layout->tile_first[page->tile] + index];
+        layout->tile_faces[layout->tile_first[mip->tile] + index];
     otx_vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
 
     for (int32_t c = leaf->face_first[face]; c < leaf->face_first[face + 1];
          ++c)
     {
-        const otx_vec2 p = otx_page_texel(page, c);
+        const otx_vec2 p = otx_mip_texel(mip, c);
 
         low = (otx_vec2){fmin(low.x, p.x), fmin(low.y, p.y)};
         high = (otx_vec2){fmax(high.x, p.x), fmax(high.y, p.y)};
     }
-    return box_of(page, low, high);
+    return box_of(mip, low, high);
 }
 
 static otx_bin_box
-box_of_edge(const otx_page *page, const otx_page_rim *rim, double r)
+box_of_edge(const otx_mip *mip, const otx_mip_rim *rim, double r)
 {
     otx_vec2 p[2];
 
-    otx_page_ends(page, rim, p);
+    otx_mip_ends(mip, rim, p);
     return box_of(
-        page, (otx_vec2){fmin(p[0].x, p[1].x) - r, fmin(p[0].y, p[1].y) - r},
+        mip, (otx_vec2){fmin(p[0].x, p[1].x) - r, fmin(p[0].y, p[1].y) - r},
         (otx_vec2){fmax(p[0].x, p[1].x) + r, fmax(p[0].y, p[1].y) + r});
 }
 
 static otx_bin_box
 box_of_rim(const void *context, int32_t index)
 {
-    const otx_page *page = context;
+    const otx_mip *mip = context;
 
-    return box_of_edge(page, &page->rims[index], page->gutter);
+    return box_of_edge(mip, &mip->rims[index], mip->gutter);
 }
 
 static otx_bin_box
 box_of_seam(const void *context, int32_t index)
 {
-    const otx_page *page = context;
+    const otx_mip *mip = context;
 
-    return box_of_edge(page, &page->seams[index], page->blend);
+    return box_of_edge(mip, &mip->seams[index], mip->blend);
 }
 
 /* Hands a rim from blocks that have some to those that have none, ring by
  * ring. */
 static otx_status
-spread_rims(otx_run *run, otx_arena *arena, otx_page *page)
+spread_rims(otx_run *run, otx_arena *arena, otx_mip *mip)
 {
-    const int32_t n = page->columns;
+    const int32_t n = mip->columns;
     const size_t blocks = (size_t)n * (size_t)n;
     int32_t *far = OTX_NEW(arena, int32_t, blocks);
     int32_t *queue = OTX_NEW(arena, int32_t, blocks);
@@ -218,12 +218,12 @@ spread_rims(otx_run *run, otx_arena *arena, otx_page *page)
         return otx_fail_memory(run, STAGE);
     for (int32_t i = 0; i < n * n; ++i)
     {
-        const int64_t first = page->near_rims.first[i];
+        const int64_t first = mip->near_rims.first[i];
 
         far[i] = -1;
-        if (first == page->near_rims.first[i + 1])
+        if (first == mip->near_rims.first[i + 1])
             continue;
-        far[i] = page->near_rims.items[first];
+        far[i] = mip->near_rims.items[first];
         queue[count++] = i;
     }
     for (int32_t k = 0; k < count; ++k)
@@ -241,29 +241,29 @@ spread_rims(otx_run *run, otx_arena *arena, otx_page *page)
             queue[count++] = around[i];
         }
     }
-    page->far_rim = far;
+    mip->far_rim = far;
     return OSDTEX_OK;
 }
 
 otx_status
-otx_page_build(otx_run *run, otx_arena *arena, otx_page *page)
+otx_mip_build(otx_run *run, otx_arena *arena, otx_mip *mip)
 {
-    const otx_layout *layout = page->layout;
+    const otx_layout *layout = mip->layout;
     const int32_t faces =
-        layout->tile_first[page->tile + 1] - layout->tile_first[page->tile];
-    const int32_t gutter = layout->margin >> page->level;
+        layout->tile_first[mip->tile + 1] - layout->tile_first[mip->tile];
+    const int32_t gutter = layout->margin >> mip->level;
 
-    page->side = otx_pyramid_side(layout->side, page->level);
-    page->columns = (page->side + OTX_PAGE_BLOCK - 1) / OTX_PAGE_BLOCK;
-    page->gutter = gutter > GUTTER_MIN ? gutter : GUTTER_MIN;
+    mip->side = otx_pyramid_side(layout->side, mip->level);
+    mip->columns = (mip->side + OTX_MIP_BLOCK - 1) / OTX_MIP_BLOCK;
+    mip->gutter = gutter > GUTTER_MIN ? gutter : GUTTER_MIN;
     OTX_TRY(otx_bin_build(
-        run, arena, page->columns, page->columns, faces, box_of_face, page,
-        &page->faces));
+        run, arena, mip->columns, mip->columns, faces, box_of_face, mip,
+        &mip->faces));
     OTX_TRY(otx_bin_build(
-        run, arena, page->columns, page->columns, page->rim_count, box_of_rim,
-        page, &page->near_rims));
+        run, arena, mip->columns, mip->columns, mip->rim_count, box_of_rim, mip,
+        &mip->near_rims));
     OTX_TRY(otx_bin_build(
-        run, arena, page->columns, page->columns, page->seam_count, box_of_seam,
-        page, &page->near_seams));
-    return spread_rims(run, arena, page);
+        run, arena, mip->columns, mip->columns, mip->seam_count, box_of_seam,
+        mip, &mip->near_seams));
+    return spread_rims(run, arena, mip);
 }

@@ -1,4 +1,4 @@
-/* test_page.c -- a block's lists hold all that can be seen in it. */
+/* test_mip_level.c -- a block's lists hold all that can be seen in it. */
 #include "unit/bake/flat.h"
 
 enum
@@ -12,7 +12,7 @@ typedef struct scene
     otx_run *run;
     otx_mapping *mapping;
     otx_layout layout;
-    otx_page page;
+    otx_mip mip;
 } scene;
 
 /* A sheet in an atlas, torn into two patches at x = N / 2. */
@@ -28,8 +28,8 @@ make(int32_t level)
         s.mapping->face_patch[f] =
             surface->points[3 * leaf->face_verts[4 * f]] > 0.49 * N;
     s.layout = flat_layout(s.run, s.mapping, OTX_LAYOUT_ATLAS, SIDE, 8);
-    s.page.level = level;
-    s.page.blend = 4.0;
+    s.mip.level = level;
+    s.mip.blend = 4.0;
     return s;
 }
 
@@ -37,20 +37,20 @@ make(int32_t level)
 static void
 build(scene *s)
 {
-    otx_page *page = &s->page;
+    otx_mip *mip = &s->mip;
     otx_run *run = s->run;
 
-    page->layout = &s->layout;
+    mip->layout = &s->layout;
     assert_int_equal(
-        otx_page_find_rims(
-            run, run->arena, &s->layout, 0, &page->rims, &page->rim_count),
+        otx_mip_find_rims(
+            run, run->arena, &s->layout, 0, &mip->rims, &mip->rim_count),
         OSDTEX_OK);
     assert_int_equal(
-        otx_page_find_seams(
-            run, run->arena, &s->layout, s->mapping->face_patch, 0,
-            &page->seams, &page->seam_count),
+        otx_mip_find_seams(
+            run, run->arena, &s->layout, s->mapping->face_patch, 0, &mip->seams,
+            &mip->seam_count),
         OSDTEX_OK);
-    assert_int_equal(otx_page_build(run, run->arena, page), OSDTEX_OK);
+    assert_int_equal(otx_mip_build(run, run->arena, mip), OSDTEX_OK);
 }
 
 static void
@@ -61,9 +61,9 @@ rims_and_seams_are_counted(void **state)
     (void)state;
     build(&s);
     /* Each of the N x N blocks has four sides of four leaves. */
-    assert_int_equal(s.page.rim_count, N * N * 4 * 4);
+    assert_int_equal(s.mip.rim_count, N * N * 4 * 4);
     /* One line of 4 N leaf edges, from both sides. */
-    assert_int_equal(s.page.seam_count, 2 * 4 * N);
+    assert_int_equal(s.mip.seam_count, 2 * 4 * N);
     test_run_destroy(s.run);
 }
 
@@ -76,16 +76,17 @@ lists(const otx_bin *bin, int32_t block, int32_t item)
     return false;
 }
 
-/* The block, counted from the top, at a place that may be beyond the page. */
+/* The block, counted from the top, at a place that may be beyond the mip level.
+ */
 static int32_t
-block_at(const otx_page *page, double x, double y)
+block_at(const otx_mip *mip, double x, double y)
 {
-    const double most = page->side - 1e-6;
+    const double most = mip->side - 1e-6;
     const double right = fmin(fmax(x, 0.0), most);
-    const double down = fmin(fmax(page->side - y, 0.0), most);
+    const double down = fmin(fmax(mip->side - y, 0.0), most);
 
-    return (int32_t)(down / OTX_PAGE_BLOCK) * page->columns +
-           (int32_t)(right / OTX_PAGE_BLOCK);
+    return (int32_t)(down / OTX_MIP_BLOCK) * mip->columns +
+           (int32_t)(right / OTX_MIP_BLOCK);
 }
 
 static void
@@ -95,38 +96,38 @@ blocks_list_what_is_near(void **state)
     for (int32_t level = 0; level < 10; ++level)
     {
         scene s = make(level);
-        const otx_page *page = &s.page;
+        const otx_mip *mip = &s.mip;
         const otx_level *leaf;
 
         build(&s);
         leaf = otx_surface_leaf(s.layout.surface);
-        assert_int_equal(page->side, SIDE >> level);
-        assert_int_equal(page->gutter, level == 0 ? 8 : 4);
+        assert_int_equal(mip->side, SIDE >> level);
+        assert_int_equal(mip->gutter, level == 0 ? 8 : 4);
         for (int32_t i = 0; i < s.layout.tile_first[1]; ++i)
             for (int32_t c = leaf->face_first[s.layout.tile_faces[i]], k = 0;
                  k < 4; ++k)
             {
-                const otx_vec2 p = otx_page_texel(page, c + k);
+                const otx_vec2 p = otx_mip_texel(mip, c + k);
 
-                assert_true(lists(&page->faces, block_at(page, p.x, p.y), i));
+                assert_true(lists(&mip->faces, block_at(mip, p.x, p.y), i));
             }
-        for (int32_t i = 0; i < page->rim_count; ++i)
+        for (int32_t i = 0; i < mip->rim_count; ++i)
         {
-            const double r = page->gutter;
+            const double r = mip->gutter;
             otx_vec2 p[2];
 
-            otx_page_ends(page, &page->rims[i], p);
+            otx_mip_ends(mip, &mip->rims[i], p);
             for (int k = 0; k < 4; ++k)
                 assert_true(lists(
-                    &page->near_rims,
+                    &mip->near_rims,
                     block_at(
-                        page, p[k / 2].x + (k % 2 ? r : -r),
+                        mip, p[k / 2].x + (k % 2 ? r : -r),
                         p[k / 2].y + (k % 2 ? r : -r)),
                     i));
         }
-        for (int32_t i = 0; i < page->columns * page->columns; ++i)
+        for (int32_t i = 0; i < mip->columns * mip->columns; ++i)
             assert_true(
-                page->far_rim[i] >= 0 && page->far_rim[i] < page->rim_count);
+                mip->far_rim[i] >= 0 && mip->far_rim[i] < mip->rim_count);
         test_run_destroy(s.run);
     }
 }

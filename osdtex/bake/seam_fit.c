@@ -1,5 +1,6 @@
-/* join.c -- the residual of lookups on a rim, put onto the texels around. */
-#include "bake/join.h"
+/* seam_fit.c -- the residual of lookups on a rim, put onto the texels around.
+ */
+#include "bake/seam_fit.h"
 
 #include "bake/facet.h"
 #include "bake/mixture.h"
@@ -47,23 +48,23 @@ edge_corners(
 }
 
 static double
-length_of(const otx_page *page, const int32_t corners[3])
+length_of(const otx_mip *mip, const int32_t corners[3])
 {
     const otx_vec2 d = otx_vec2_sub(
-        otx_page_texel(page, corners[1]), otx_page_texel(page, corners[0]));
+        otx_mip_texel(mip, corners[1]), otx_mip_texel(mip, corners[0]));
 
     return otx_vec2_length(d);
 }
 
 /* The exemplar's UV from a texel to the next one away from the edge. */
 static otx_vec2
-away_from_edge(const otx_join *join, const int32_t corners[3])
+away_from_edge(const otx_seam_fit *fit, const int32_t corners[3])
 {
-    const float *uvs = join->mapping->uvs;
-    const otx_page *page = join->page;
-    const otx_vec2 at = otx_page_texel(page, corners[0]);
-    const otx_vec2 edge = otx_vec2_sub(otx_page_texel(page, corners[1]), at);
-    const otx_vec2 arm = otx_vec2_sub(otx_page_texel(page, corners[2]), at);
+    const float *uvs = fit->mapping->uvs;
+    const otx_mip *mip = fit->mip;
+    const otx_vec2 at = otx_mip_texel(mip, corners[0]);
+    const otx_vec2 edge = otx_vec2_sub(otx_mip_texel(mip, corners[1]), at);
+    const otx_vec2 arm = otx_vec2_sub(otx_mip_texel(mip, corners[2]), at);
     const double sq = otx_vec2_dot(edge, edge);
     const double height = otx_vec2_cross(edge, arm) / sqrt(sq);
 
@@ -80,20 +81,20 @@ away_from_edge(const otx_join *join, const int32_t corners[3])
 }
 
 /* Texels lie to either side of the edge: a lookup on it sees two of them. */
-static otx_join_side
+static otx_seam_fit_side
 side_of(
-    const otx_join *join, const otx_texture *texture, const int32_t corners[3],
-    double step)
+    const otx_seam_fit *fit, const otx_texture *texture,
+    const int32_t corners[3], double step)
 {
-    const otx_vec2 uv = corner_of(join->mapping->uvs, corners[0]);
+    const otx_vec2 uv = corner_of(fit->mapping->uvs, corners[0]);
     const otx_vec2 along =
-        otx_vec2_sub(corner_of(join->mapping->uvs, corners[1]), uv);
+        otx_vec2_sub(corner_of(fit->mapping->uvs, corners[1]), uv);
 
-    return (otx_join_side){
+    return (otx_seam_fit_side){
         uv, along,
         otx_texture_measure(
             texture, otx_vec2_scale(step / SAMPLES, along),
-            otx_vec2_scale(2.0, away_from_edge(join, corners)))};
+            otx_vec2_scale(2.0, away_from_edge(fit, corners)))};
 }
 
 static int32_t
@@ -117,7 +118,7 @@ is_nothing(double step, bool wrap)
 
 /* Whether both sides of an edge show the same. */
 static bool
-is_whole(const otx_texture *texture, const otx_join_side sides[2])
+is_whole(const otx_texture *texture, const otx_seam_fit_side sides[2])
 {
     const otx_vec2 d = otx_vec2_sub(sides[1].uv, sides[0].uv);
     const otx_vec2 e = otx_vec2_sub(sides[1].along, sides[0].along);
@@ -128,33 +129,33 @@ is_whole(const otx_texture *texture, const otx_join_side sides[2])
 }
 
 static void
-set_edge(const otx_join *join, int32_t rim, otx_join_edge *out)
+set_edge(const otx_seam_fit *fit, int32_t rim, otx_seam_fit_edge *out)
 {
-    const otx_page *page = join->page;
-    const otx_level *leaf = otx_surface_leaf(page->layout->surface);
-    const otx_page_rim *r = &page->rims[rim];
+    const otx_mip *mip = fit->mip;
+    const otx_level *leaf = otx_surface_leaf(mip->layout->surface);
+    const otx_mip_rim *r = &mip->rims[rim];
     const int32_t edge = leaf->face_edges[leaf->face_first[r->face] + r->edge];
-    const int32_t other = otx_layout_across(page->layout, r->face, r->edge);
+    const int32_t other = otx_layout_across(mip->layout, r->face, r->edge);
     int32_t here[3], there[3];
 
     out->rim = rim;
     out->goes_on = other >= 0 &&
-                   otx_source_of(join->mapping, other) ==
-                       otx_source_of(join->mapping, r->face) &&
-                   !otx_mixture_has(join->mapping, r->face) &&
-                   !otx_mixture_has(join->mapping, other);
+                   otx_source_of(fit->mapping, other) ==
+                       otx_source_of(fit->mapping, r->face) &&
+                   !otx_mixture_has(fit->mapping, r->face) &&
+                   !otx_mixture_has(fit->mapping, other);
     if (!out->goes_on)
         return;
-    out->texture = &join->textures[otx_source_of(join->mapping, r->face)];
+    out->texture = &fit->textures[otx_source_of(fit->mapping, r->face)];
     edge_corners(leaf, r->face, r->edge, here);
     edge_corners(leaf, other, edge_of(leaf, other, edge), there);
 
-    const double texels = fmin(length_of(page, here), length_of(page, there));
+    const double texels = fmin(length_of(mip, here), length_of(mip, there));
 
     out->step = texels > 1.0 ? 1.0 / texels : 1.0;
-    otx_page_ends(page, r, out->ends);
-    out->sides[0] = side_of(join, out->texture, here, out->step);
-    out->sides[1] = side_of(join, out->texture, there, out->step);
+    otx_mip_ends(mip, r, out->ends);
+    out->sides[0] = side_of(fit, out->texture, here, out->step);
+    out->sides[1] = side_of(fit, out->texture, there, out->step);
     /* It runs backwards over there. */
     out->sides[1].uv = otx_vec2_add(out->sides[1].uv, out->sides[1].along);
     out->sides[1].along = otx_vec2_scale(-1.0, out->sides[1].along);
@@ -166,9 +167,10 @@ set_edge(const otx_join *join, int32_t rim, otx_join_edge *out)
  * other edges have as well, without what is beside it. */
 static void
 color_of(
-    const otx_join *join, const otx_join_edge *edge, double t, float *color)
+    const otx_seam_fit *fit, const otx_seam_fit_edge *edge, double t,
+    float *color)
 {
-    const int32_t channels = join->grid->channels;
+    const int32_t channels = fit->grid->channels;
     const int32_t given = edge->texture->pyramid.levels[0].channels;
     const double step = t > 0.0 && t < 1.0 ? edge->step : 0.0;
     double sum[OTX_IMAGE_MAX_CHANNELS] = {0.0};
@@ -176,7 +178,7 @@ color_of(
     for (int i = 0; i < 2; ++i)
         for (int s = 0; s < SAMPLES; ++s)
         {
-            const otx_join_side *side = &edge->sides[i];
+            const otx_seam_fit_side *side = &edge->sides[i];
             const double at = t + ((s + 0.5) / SAMPLES - 0.5) * step;
 
             otx_texture_probe(
@@ -214,7 +216,7 @@ cell_at(double at, int32_t count, double *weight)
     return (int32_t)held;
 }
 
-/* Around a point in texels of the page. */
+/* Around a point in texels of the mip level. */
 static lookup
 lookup_at(const otx_raster *raster, otx_vec2 at)
 {
@@ -228,34 +230,34 @@ lookup_at(const otx_raster *raster, otx_vec2 at)
 
 /* The chart that a texel shows or continues; -1 far from all. */
 static int32_t
-chart_shown(const otx_join *join, int64_t texel)
+chart_shown(const otx_seam_fit *fit, int64_t texel)
 {
-    const int32_t owner = join->grid->owners[texel];
-    const int32_t rim = join->near_rim->edges[texel];
+    const int32_t owner = fit->grid->owners[texel];
+    const int32_t rim = fit->near_rim->edges[texel];
 
     return owner >= 0 || rim < 0
                ? owner
-               : join->page->layout->chart[join->page->rims[rim].face];
+               : fit->mip->layout->chart[fit->mip->rims[rim].face];
 }
 
 /* Whether all that a lookup mixes shows one chart. */
 static bool
-is_of_chart(const otx_join *join, lookup at, int32_t chart)
+is_of_chart(const otx_seam_fit *fit, lookup at, int32_t chart)
 {
-    const int64_t above = at.corner + join->raster->width;
+    const int64_t above = at.corner + fit->raster->width;
 
-    return chart_shown(join, at.corner) == chart &&
-           chart_shown(join, at.corner + 1) == chart &&
-           chart_shown(join, above) == chart &&
-           chart_shown(join, above + 1) == chart;
+    return chart_shown(fit, at.corner) == chart &&
+           chart_shown(fit, at.corner + 1) == chart &&
+           chart_shown(fit, above) == chart &&
+           chart_shown(fit, above + 1) == chart;
 }
 
 static double
-look_up(const otx_join *join, lookup at, int32_t channel)
+look_up(const otx_seam_fit *fit, lookup at, int32_t channel)
 {
-    const int32_t right = join->grid->channels;
-    const ptrdiff_t up = (ptrdiff_t)join->raster->width * right;
-    const float *p = join->grid->pixels + at.corner * right + channel;
+    const int32_t right = fit->grid->channels;
+    const ptrdiff_t up = (ptrdiff_t)fit->raster->width * right;
+    const float *p = fit->grid->pixels + at.corner * right + channel;
 
     return (1.0 - at.y) * ((1.0 - at.x) * p[0] + at.x * p[right]) +
            at.y * ((1.0 - at.x) * p[up] + at.x * p[up + right]);
@@ -274,9 +276,9 @@ half_of(float value)
 }
 
 static float
-hold(const otx_join *join, int32_t channel, double value)
+hold(const otx_seam_fit *fit, int32_t channel, double value)
 {
-    const float low = join->low[channel], high = join->high[channel];
+    const float low = fit->low[channel], high = fit->high[channel];
 
     return value < low ? low : value > high ? high : (float)value;
 }
@@ -299,26 +301,26 @@ is_mirrored(otx_vec2 texel, otx_vec2 foot, int32_t steps[2])
 
 /* The texel as it is. */
 static void
-keep(const otx_join *join, int32_t x, int32_t y, float *out)
+keep(const otx_seam_fit *fit, int32_t x, int32_t y, float *out)
 {
-    const int32_t channels = join->grid->channels;
-    const int64_t texel = (int64_t)y * join->raster->width + x;
+    const int32_t channels = fit->grid->channels;
+    const int64_t texel = (int64_t)y * fit->raster->width + x;
 
     memcpy(
-        out, join->grid->pixels + texel * channels,
+        out, fit->grid->pixels + texel * channels,
         (size_t)channels * sizeof *out);
 }
 
 static void join_texel(
-    const otx_join *join, int32_t x, int32_t y, int32_t depth,
-    otx_join_edge *edge, float *out);
+    const otx_seam_fit *fit, int32_t x, int32_t y, int32_t depth,
+    otx_seam_fit_edge *edge, float *out);
 
 static bool
-is_owned(const otx_join *join, int32_t x, int32_t y, int32_t chart)
+is_owned(const otx_seam_fit *fit, int32_t x, int32_t y, int32_t chart)
 {
-    return x >= 0 && x < join->raster->width && y >= 0 &&
-           y < join->raster->height &&
-           join->grid->owners[(int64_t)y * join->raster->width + x] == chart;
+    return x >= 0 && x < fit->raster->width && y >= 0 &&
+           y < fit->raster->height &&
+           fit->grid->owners[(int64_t)y * fit->raster->width + x] == chart;
 }
 
 /* A texel of the margin with which the mean of both sides is what is wanted,
@@ -326,10 +328,10 @@ is_owned(const otx_join *join, int32_t x, int32_t y, int32_t chart)
  * there, so that all who meet in it want the same. */
 static void
 complete(
-    const otx_join *join, int32_t x, int32_t y, const int32_t steps[2],
-    int32_t depth, otx_join_edge *edge, const float *wanted, float *out)
+    const otx_seam_fit *fit, int32_t x, int32_t y, const int32_t steps[2],
+    int32_t depth, otx_seam_fit_edge *edge, const float *wanted, float *out)
 {
-    const int32_t channels = join->grid->channels;
+    const int32_t channels = fit->grid->channels;
     const bool is_corner = steps[0] != 0 && steps[1] != 0;
     const int32_t others[3][2] = {
         {x + steps[0], y + steps[1]}, {x + steps[0], y}, {x, y + steps[1]}};
@@ -337,17 +339,17 @@ complete(
 
     for (int i = 0; i < (is_corner ? 3 : 1); ++i)
     {
-        join_texel(join, others[i][0], others[i][1], depth - 1, edge, out);
+        join_texel(fit, others[i][0], others[i][1], depth - 1, edge, out);
         if (is_corner && !edge->goes_on)
         {
-            keep(join, x, y, out);
+            keep(fit, x, y, out);
             return;
         }
         for (int32_t c = 0; c < channels; ++c)
             sum[c] += is_corner ? out[c] : half_of(out[c]);
     }
     for (int32_t c = 0; c < channels; ++c)
-        out[c] = hold(join, c, (is_corner ? 4.0 : 2.0) * wanted[c] - sum[c]);
+        out[c] = hold(fit, c, (is_corner ? 4.0 : 2.0) * wanted[c] - sum[c]);
 }
 
 /* `depth`: 0 to share what is lacking with the other texels, 1 to complete a
@@ -355,48 +357,49 @@ complete(
  * too. */
 static void
 join_texel(
-    const otx_join *join, int32_t x, int32_t y, int32_t depth,
-    otx_join_edge *edge, float *out)
+    const otx_seam_fit *fit, int32_t x, int32_t y, int32_t depth,
+    otx_seam_fit_edge *edge, float *out)
 {
-    const int32_t channels = join->grid->channels;
-    const int64_t texel = (int64_t)y * join->raster->width + x;
-    const int32_t rim = join->near_rim->edges[texel];
+    const int32_t channels = fit->grid->channels;
+    const int64_t texel = (int64_t)y * fit->raster->width + x;
+    const int32_t rim = fit->near_rim->edges[texel];
     float wanted[OTX_IMAGE_MAX_CHANNELS];
     int32_t steps[2];
 
-    keep(join, x, y, out);
-    if (rim < 0 || join->raster->width < 2 || join->raster->height < 2 ||
-        !(join->near_rim->distance[texel] < 1.0f) ||
-        join->near_seam->edges[texel] >= 0)
+    keep(fit, x, y, out);
+    if (rim < 0 || fit->raster->width < 2 || fit->raster->height < 2 ||
+        !(fit->near_rim->distance[texel] < 1.0f) ||
+        fit->near_seam->edges[texel] >= 0)
         return;
     if (edge->rim != rim)
-        set_edge(join, rim, edge);
+        set_edge(fit, rim, edge);
     if (!edge->goes_on)
         return;
 
-    const int32_t chart = join->page->layout->chart[join->page->rims[rim].face];
-    const otx_vec2 at = otx_raster_texel(join->raster, x, y);
+    const int32_t chart = fit->mip->layout->chart[fit->mip->rims[rim].face];
+    const otx_vec2 at = otx_raster_texel(fit->raster, x, y);
     const double t = otx_raster_nearest(edge->ends[0], edge->ends[1], at);
     const otx_vec2 foot = otx_vec2_lerp(edge->ends[0], edge->ends[1], t);
-    const lookup found = lookup_at(join->raster, foot);
+    const lookup found = lookup_at(fit->raster, foot);
 
-    if (!is_of_chart(join, found, chart))
+    if (!is_of_chart(fit, found, chart))
         return;
-    color_of(join, edge, t, wanted);
-    if (join->grid->owners[texel] < 0 && is_mirrored(at, foot, steps) &&
+    color_of(fit, edge, t, wanted);
+    if (fit->grid->owners[texel] < 0 && is_mirrored(at, foot, steps) &&
         depth >= (steps[0] != 0) + (steps[1] != 0) &&
-        is_owned(join, x + steps[0], y + steps[1], chart))
+        is_owned(fit, x + steps[0], y + steps[1], chart))
     {
-        complete(join, x, y, steps, depth, edge, wanted, out);
+        complete(fit, x, y, steps, depth, edge, wanted, out);
         return;
     }
     for (int32_t c = 0; c < channels; ++c)
-        out[c] = hold(join, c, out[c] + (wanted[c] - look_up(join, found, c)));
+        out[c] = hold(fit, c, out[c] + (wanted[c] - look_up(fit, found, c)));
 }
 
 void
-otx_join_texel(
-    const otx_join *join, int32_t x, int32_t y, otx_join_edge *edge, float *out)
+otx_seam_fit_texel(
+    const otx_seam_fit *fit, int32_t x, int32_t y, otx_seam_fit_edge *edge,
+    float *out)
 {
-    join_texel(join, x, y, 2, edge, out);
+    join_texel(fit, x, y, 2, edge, out);
 }

@@ -1,23 +1,23 @@
-/* inside.h -- colours of texels that charts reach into.
+/* resolve.h -- colours of texels that charts reach into.
  *
  * A texel is the mean of n x n samples. One that several charts reach into
  * belongs to the chart with most samples; the others' samples are taken from
  * what that chart's surface shows there. */
-#ifndef OTX_BAKE_INSIDE_H
-#define OTX_BAKE_INSIDE_H
+#ifndef OTX_BAKE_RESOLVE_H
+#define OTX_BAKE_RESOLVE_H
 
 #include "bake/block.h"
 
 /* The chart with most samples in a texel, of equal ones the first, and the
  * first sample that has it; -1 where no face reaches. */
 int32_t
-otx_inside_owner(const otx_block *block, int32_t x, int32_t y, int32_t *first);
+otx_resolve_owner(const otx_block *block, int32_t x, int32_t y, int32_t *first);
 
 /* Color of a texel.
  *
  *   chart  its owner
  *   first  a sample that has it */
-void otx_inside_color(
+void otx_resolve_color(
     otx_block *block, int32_t x, int32_t y, int32_t chart, int32_t first,
     float *out);
 

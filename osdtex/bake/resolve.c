@@ -1,5 +1,5 @@
-/* inside.c -- colours of texels that charts reach into. */
-#include "bake/inside.h"
+/* resolve.c -- colours of texels that charts reach into. */
+#include "bake/resolve.h"
 
 #include "bake/sample.h"
 
@@ -13,11 +13,11 @@ chart_at(const otx_block *block, int32_t x, int32_t y, int32_t s)
 {
     const int64_t id = otx_block_sample(block, x, y, s);
 
-    return id < 0 ? -1 : block->source->layout->chart[otx_piece_face(id)];
+    return id < 0 ? -1 : block->source->layout->chart[otx_mip_facet_face(id)];
 }
 
 int32_t
-otx_inside_owner(const otx_block *block, int32_t x, int32_t y, int32_t *first)
+otx_resolve_owner(const otx_block *block, int32_t x, int32_t y, int32_t *first)
 {
     const int32_t samples = block->raster.n * block->raster.n;
     int32_t charts[OTX_BLOCK_SAMPLES_MAX * OTX_BLOCK_SAMPLES_MAX];
@@ -67,15 +67,15 @@ static texel_state
 state_of(otx_block *block, int32_t x, int32_t y, int32_t first, otx_vec2 *uv)
 {
     const otx_vec2 centre = otx_raster_texel(&block->raster, x, y);
-    const otx_piece *piece =
+    const otx_mip_facet *placed =
         otx_block_piece(block, otx_block_sample(block, x, y, first));
-    const otx_texture *texture = piece->texture;
+    const otx_texture *texture = placed->texture;
     const otx_image *image = &texture->pyramid.levels[0];
-    const int32_t chart = piece->chart;
-    bool is_plain = piece->is_plain;
-    int64_t seen = piece->id;
+    const int32_t chart = placed->chart;
+    bool is_plain = placed->is_plain;
+    int64_t seen = placed->id;
 
-    *uv = otx_piece_uv(piece, centre);
+    *uv = otx_mip_facet_uv(placed, centre);
     for (int32_t s = 0; s < block->raster.n * block->raster.n; ++s)
     {
         const int64_t id = otx_block_sample(block, x, y, s);
@@ -85,12 +85,12 @@ state_of(otx_block *block, int32_t x, int32_t y, int32_t first, otx_vec2 *uv)
         if (id < 0)
             return TEXEL_TORN;
         seen = id;
-        piece = otx_block_piece(block, id);
-        is_plain = is_plain && piece->is_plain;
+        placed = otx_block_piece(block, id);
+        is_plain = is_plain && placed->is_plain;
 
-        const otx_vec2 d = otx_vec2_sub(otx_piece_uv(piece, centre), *uv);
+        const otx_vec2 d = otx_vec2_sub(otx_mip_facet_uv(placed, centre), *uv);
 
-        if (piece->chart != chart || piece->texture != texture ||
+        if (placed->chart != chart || placed->texture != texture ||
             !(fabs(d.x) * image->width < AGREED) ||
             !(fabs(d.y) * image->height < AGREED))
             return TEXEL_TORN;
@@ -98,7 +98,7 @@ state_of(otx_block *block, int32_t x, int32_t y, int32_t first, otx_vec2 *uv)
     return is_plain ? TEXEL_WHOLE : TEXEL_SMOOTH;
 }
 
-/* The piece at a place within a texel, of those that its samples have: first
+/* The facet at a place within a texel, of those that its samples have: first
  * that of the sample nearest to it. */
 static int64_t
 piece_near(otx_block *block, int32_t x, int32_t y, otx_vec2 at)
@@ -113,14 +113,14 @@ piece_near(otx_block *block, int32_t x, int32_t y, otx_vec2 at)
         const int64_t id =
             otx_block_sample(block, x, y, (j * n + i + s) % samples);
 
-        if (id >= 0 && otx_piece_contains(otx_block_piece(block, id), at))
+        if (id >= 0 && otx_mip_facet_contains(otx_block_piece(block, id), at))
             return id;
     }
     return otx_block_sample(block, x, y, j * n + i);
 }
 
 /* Color of one of n x n samples of a texel that `chart` owns, at `at`, on the
- * piece `id`: where that is another chart's, or none, what the piece `home` of
+ * facet `id`: where that is another chart's, or none, what the facet `home` of
  * this one goes on to. */
 static void
 color_of_sample(
@@ -129,7 +129,7 @@ color_of_sample(
 {
     const otx_texel_source *source = block->source;
 
-    if (id >= 0 && source->layout->chart[otx_piece_face(id)] == chart)
+    if (id >= 0 && source->layout->chart[otx_mip_facet_face(id)] == chart)
         otx_sample_on_piece(
             source, otx_block_piece(block, id), 1.0 / block->raster.n, at,
             color);
@@ -145,7 +145,7 @@ color_of_sample(
 /* Where a seam runs through a texel more samples are taken, so that each side
  * has its share. */
 void
-otx_inside_color(
+otx_resolve_color(
     otx_block *block, int32_t x, int32_t y, int32_t chart, int32_t first,
     float *out)
 {
@@ -161,7 +161,7 @@ otx_inside_color(
     if (state == TEXEL_WHOLE)
     {
         otx_sample_probe(
-            source, otx_texel_texture(source, otx_piece_face(home)),
+            source, otx_texel_texture(source, otx_mip_facet_face(home)),
             &(otx_texture_probes){.count = 1}, uv, out);
         return;
     }

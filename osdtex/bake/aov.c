@@ -1,5 +1,5 @@
-/* number.c -- what is baked besides colours: values at a texel's centre. */
-#include "bake/number.h"
+/* aov.c -- what is baked besides colours: values at a texel's centre. */
+#include "bake/aov.h"
 
 /* Lengths, on the surface, of the steps of a unit in the exemplar: singular
  * values of the map from the exemplar (in scene units) to the surface. */
@@ -59,7 +59,7 @@ values_at(const otx_texel_source *source, const otx_walk *walk, float *values)
             (float)otx_surface_leaf(source->layout->surface)->face_cage[face];
         return;
     case OTX_TEXEL_UV:
-        uv = otx_piece_mix(source->mapping, &walk->facet, walk->at);
+        uv = otx_mip_facet_mix(source->mapping, &walk->facet, walk->at);
         values[0] = (float)uv.x;
         values[1] = (float)uv.y;
         return;
@@ -86,9 +86,9 @@ has_seam(const otx_block *block, int32_t x, int32_t y)
 
         if (id < 0)
             continue;
-        if (seen >= 0 && patch[otx_piece_face(id)] != seen)
+        if (seen >= 0 && patch[otx_mip_facet_face(id)] != seen)
             return true;
-        seen = patch[otx_piece_face(id)];
+        seen = patch[otx_mip_facet_face(id)];
     }
     return false;
 }
@@ -102,16 +102,16 @@ is_at_seam(const otx_block *block, int32_t x, int32_t y)
     const int32_t rim = block->near_rim.edges[i];
 
     return rim >= 0 && block->near_rim.distance[i] < 1.0f &&
-           otx_page_is_seam(
+           otx_mip_is_seam(
                block->source->layout, block->source->mapping->face_patch,
-               &block->page->rims[rim]);
+               &block->mip->rims[rim]);
 }
 
 void
-otx_number_inside(
+otx_aov_inside(
     otx_block *block, int32_t x, int32_t y, int32_t first, float *out)
 {
-    const otx_piece *home =
+    const otx_mip_facet *home =
         otx_block_piece(block, otx_block_sample(block, x, y, first));
     const otx_walk walk =
         otx_block_walk(block, home, otx_raster_texel(&block->raster, x, y));
@@ -123,7 +123,7 @@ otx_number_inside(
 }
 
 void
-otx_number_beyond(
+otx_aov_gutter(
     const otx_block *block, int32_t x, int32_t y, const otx_walk *walk,
     float *out)
 {

@@ -1,6 +1,6 @@
-/* spread.c -- by matching the vertices of a child with those of its parent:
- * no order of children is taken for granted. */
-#include "bake/spread.h"
+/* fvar_linear.c -- by matching the vertices of a child with those of its
+ * parent: no order of children is taken for granted. */
+#include "bake/fvar_linear.h"
 
 #include "math/vec.h"
 
@@ -60,7 +60,7 @@ spread_level(
 }
 
 otx_status
-otx_spread_linear(
+otx_fvar_linear(
     otx_run *run, const otx_surface *surface, const float *cage_uvs,
     float *leaf_uvs)
 {
