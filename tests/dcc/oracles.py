@@ -7,6 +7,9 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "tests"))
+
+from oracle_venv import oracle_python, run_in_venv  # noqa: E402,F401
 
 
 def run(*words, **options):
