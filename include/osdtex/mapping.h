@@ -18,7 +18,7 @@ enum
 /* One more exemplar of a mapping. */
 typedef struct osdtex_also
 {
-    const osdtex_exemplar *exemplar; /* borrowed as the first is */
+    const osdtex_exemplar *exemplar; /* kept as the first is */
     const char *material; /* of the cage: its faces show it; NULL none */
     double scale; /* width in scene units; 0: as many texels to a unit as
                    * the first has */

@@ -24,9 +24,11 @@
  * `osdtex_map` and `osdtex_render` return handles that the caller destroys;
  * `*_describe` lends what lives as long as the handle.
  *
- * A handle borrows those it was made from (a surface its cage, a mapping its
- * surface and exemplar, a model its mapping): destroy it before them, and the
- * context last. Destroying NULL is fine.
+ * Handles are counted: one that was made from others (a surface from its cage,
+ * a mapping from its surface and exemplars, a model from its mapping) keeps
+ * them, so handles and context may be destroyed in any order, and each as soon
+ * as the caller needs it no more. What `*_describe` lends lives until the
+ * caller has destroyed the handle itself. Destroying NULL is fine.
  *
  * Structs that open with `size` may grow at their end in later versions; get
  * one from its `*_default` or `*_none` function, which sets `size`. Structs

@@ -14,18 +14,18 @@ typedef struct osdtex_model osdtex_model;
  * NUMERIC, COLOUR, IO, MEMORY. A texture that cannot be read is a warning. */
 OSDTEX_API osdtex_status osdtex_model_read(
     osdtex_context *context, const char *path, osdtex_model **out);
-/* The same from a mapping, which it borrows. */
+/* The same from a mapping. */
 OSDTEX_API osdtex_status osdtex_model_create(
     osdtex_context *context, const osdtex_mapping *mapping, osdtex_model **out);
-/* The surface of a field, which it borrows, to be shown as "field" or
- * "singularities". */
+/* The surface of a field, to be shown as "field" or "singularities". */
 OSDTEX_API osdtex_status osdtex_model_create_field(
     osdtex_context *context, const osdtex_field *field, osdtex_model **out);
-/* A field to be shown on a model that was read, which borrows it: that of the
- * same OBJ read as a cage of scheme none, on level 0. ARGUMENT where the
- * field's surface has other faces than the model. */
-OSDTEX_API osdtex_status osdtex_model_add_field(
-    osdtex_context *context, osdtex_model *model, const osdtex_field *field);
+/* A model that was read, with a field to be shown on it: that of the same OBJ
+ * read as a cage of scheme none, on level 0. ARGUMENT where the field's surface
+ * has other faces than the model. */
+OSDTEX_API osdtex_status osdtex_model_join_field(
+    osdtex_context *context, const osdtex_model *model,
+    const osdtex_field *field, osdtex_model **out);
 OSDTEX_API void osdtex_model_destroy(osdtex_model *model);
 
 typedef struct osdtex_render_options

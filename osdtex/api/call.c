@@ -120,24 +120,26 @@ otx_call_colour(otx_call *call, const otx_colour **out)
     return OSDTEX_OK;
 }
 
-static void
-destroy_arena(void *arena)
+otx_status
+otx_call_hold(otx_run *run, otx_arena *other)
 {
-    otx_arena_destroy(arena);
+    return otx_arena_hold(run->arena, other) ? OSDTEX_OK
+                                             : otx_fail_memory(run, "handle");
 }
 
 otx_status
 otx_call_aside(otx_call *call, otx_run *out)
 {
     otx_arena *aside = otx_arena_create(call->run.heap);
+    bool held;
 
     if (!aside)
         return otx_fail_memory(&call->run, call->stage);
-    if (!otx_arena_defer(call->run.scratch, destroy_arena, aside))
-    {
-        otx_arena_destroy(aside);
+    held = otx_arena_hold(call->run.scratch, aside);
+    /* From here on the scratch arena alone owns it. */
+    otx_arena_destroy(aside);
+    if (!held)
         return otx_fail_memory(&call->run, call->stage);
-    }
     *out = call->run;
     out->arena = aside;
     return OSDTEX_OK;

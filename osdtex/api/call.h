@@ -68,6 +68,10 @@ otx_status otx_call_options(
 /* The colour configuration of the context, opened at the first call. */
 otx_status otx_call_colour(otx_call *call, const otx_colour **out);
 
+/* Keeps the handle that lives in `other` for as long as that of the run: the
+ * caller may destroy the two in any order. MEMORY. */
+otx_status otx_call_hold(otx_run *run, otx_arena *other);
+
 /* A run whose results go to an arena that is destroyed with the call: for what
  * is read, copied into the handle, and forgotten. MEMORY. */
 otx_status otx_call_aside(otx_call *call, otx_run *out);

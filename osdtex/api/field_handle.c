@@ -110,6 +110,7 @@ begin(otx_run *run, const osdtex_surface *surface, osdtex_field **out)
         return otx_fail_memory(run, "field");
     h->arena = run->arena;
     h->surface = surface;
+    OTX_TRY(otx_call_hold(run, surface->arena));
     h->asked_scale = OTX_ZNEW(run->arena, double, verts);
     h->material = OTX_ZNEW(run->arena, double, verts);
     if (!h->asked_scale || !h->material)

@@ -116,6 +116,8 @@ map(otx_run *run, const osdtex_surface *surface,
     handle->surface = surface;
     handle->exemplar = exemplar;
     handle->seed = ours.seed;
+    OTX_TRY(otx_call_hold(run, surface->arena));
+    OTX_TRY(otx_call_hold(run, exemplar->arena));
     OTX_TRY(
         choose_request(run, surface, &exemplar->info, &ours, &handle->request));
     OTX_TRY(otx_map_input_constraints(

@@ -349,6 +349,7 @@ create_model(otx_call *call, const osdtex_mapping *mapping, osdtex_model **out)
         OTX_TRY(texture_from(&l, &mapping->exemplars[k], &exemplars[k].linear));
     }
     handle->arena = run->arena;
+    OTX_TRY(otx_call_hold(run, mapping->arena));
     OTX_TRY(otx_scene_from_mapping(
         run, &mapping->mapping, exemplars, &handle->scene));
     handle->surface = &mapping->surface->surface;
@@ -385,6 +386,7 @@ create_from_field(otx_run *run, const osdtex_field *field, osdtex_model **out)
             "no field is given");
     leaf = field->connection.level;
     handle->arena = run->arena;
+    OTX_TRY(otx_call_hold(run, field->arena));
     handle->surface = &field->surface->surface;
     handle->guide = &field->guide;
     handle->scene = (otx_scene){
@@ -414,18 +416,13 @@ osdtex_model_create_field(
     return otx_call_end(&call, create_from_field(&call.run, field, out), out);
 }
 
+/* The field's faces are those of the model. */
 static otx_status
-add_field(otx_run *run, osdtex_model *model, const osdtex_field *field)
+check_field(otx_run *run, const osdtex_model *model, const osdtex_field *field)
 {
-    const otx_scene *scene;
-    const otx_level *leaf;
+    const otx_scene *scene = &model->scene;
+    const otx_level *leaf = field->connection.level;
 
-    if (!model || !field)
-        return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
-            "no model or no field is given");
-    scene = &model->scene;
-    leaf = field->connection.level;
     if (scene->face_count != leaf->face_count)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
@@ -437,19 +434,46 @@ add_field(otx_run *run, osdtex_model *model, const osdtex_field *field)
                 run, OSDTEX_ERROR_ARGUMENT, "model",
                 (otx_where){NULL, 0, f, -1},
                 "a face of the model has other corners than that of the field");
-    model->surface = &field->surface->surface;
-    model->guide = &field->guide;
+    return OSDTEX_OK;
+}
+
+static otx_status
+join_field(
+    otx_run *run, const osdtex_model *model, const osdtex_field *field,
+    osdtex_model **out)
+{
+    osdtex_model *handle = OTX_ZNEW(run->arena, osdtex_model, 1);
+
+    if (!handle)
+        return otx_fail_memory(run, "model");
+    if (!model || !field)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
+            "no model or no field is given");
+    OTX_TRY(check_field(run, model, field));
+    OTX_TRY(otx_call_hold(run, model->arena));
+    OTX_TRY(otx_call_hold(run, field->arena));
+    *handle = *model;
+    handle->arena = run->arena;
+    handle->surface = &field->surface->surface;
+    handle->guide = &field->guide;
+    *out = handle;
     return OSDTEX_OK;
 }
 
 osdtex_status
-osdtex_model_add_field(
-    osdtex_context *context, osdtex_model *model, const osdtex_field *field)
+osdtex_model_join_field(
+    osdtex_context *context, const osdtex_model *model,
+    const osdtex_field *field, osdtex_model **out)
 {
     otx_call call;
 
+    if (!out)
+        return OSDTEX_ERROR_ARGUMENT;
+    *out = NULL;
     OTX_TRY(otx_call_begin(context, "model", &call));
-    return otx_call_drop(&call, add_field(&call.run, model, field));
+    return otx_call_end(
+        &call, join_field(&call.run, model, field, out), out);
 }
 
 void

@@ -5,6 +5,7 @@
  * texture when they are baked, so all are in one linear space. */
 #include "api/several.h"
 
+#include "api/call.h"
 #include "api/exemplar_names.h"
 #include "api/mask_pictures.h"
 #include "method/demand.h"
@@ -124,6 +125,7 @@ take_exemplars(
     {
         handle->sources[k + 1] = options->also[k].exemplar;
         OTX_TRY(take_exemplar(run, &options->also[k], handle, &list[k + 1]));
+        OTX_TRY(otx_call_hold(run, options->also[k].exemplar->arena));
     }
     handle->exemplars = list;
     handle->source_count = options->also_count + 1;

@@ -98,6 +98,7 @@ refine(
     OTX_TRY(choose_level(run, cage, &ours, &level));
     handle->arena = run->arena;
     handle->cage = cage;
+    OTX_TRY(otx_call_hold(run, cage->arena));
     OTX_TRY(otx_surface_refine(
         run, &cage->cage, level, call->context->options.memory_limit,
         &handle->surface));

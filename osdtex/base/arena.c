@@ -23,6 +23,7 @@ struct otx_heap
     otx_heap_hooks hooks;
     _Atomic size_t used;
     _Atomic size_t peak;
+    _Atomic size_t owners; /* its creator and every arena */
 };
 
 typedef struct chunk
@@ -44,6 +45,7 @@ struct otx_arena
     otx_heap *heap;
     chunk *last;
     deferred *deferred;
+    _Atomic size_t owners;
 };
 
 otx_heap *
@@ -56,13 +58,15 @@ otx_heap_create(const otx_heap_hooks *hooks)
     heap->hooks = hooks ? *hooks : (otx_heap_hooks){0};
     atomic_init(&heap->used, 0);
     atomic_init(&heap->peak, 0);
+    atomic_init(&heap->owners, 1);
     return heap;
 }
 
 void
 otx_heap_destroy(otx_heap *heap)
 {
-    free(heap);
+    if (heap && atomic_fetch_sub(&heap->owners, 1) == 1)
+        free(heap);
 }
 
 /* Counts `bytes` in, or refuses when they would pass the limit. */
@@ -162,8 +166,13 @@ otx_arena_create(otx_heap *heap)
 {
     otx_arena *arena = otx_heap_alloc(heap, sizeof *arena);
 
-    if (arena)
-        *arena = (otx_arena){.heap = heap};
+    if (!arena)
+        return NULL;
+    arena->heap = heap;
+    arena->last = NULL;
+    arena->deferred = NULL;
+    atomic_init(&arena->owners, 1);
+    atomic_fetch_add(&heap->owners, 1);
     return arena;
 }
 
@@ -209,11 +218,30 @@ drop_blocks(otx_arena *arena, const chunk *until)
 void
 otx_arena_destroy(otx_arena *arena)
 {
-    if (!arena)
+    otx_heap *heap;
+
+    if (!arena || atomic_fetch_sub(&arena->owners, 1) != 1)
         return;
+    heap = arena->heap;
     run_deferred(arena, NULL);
     drop_blocks(arena, NULL);
-    otx_heap_free(arena->heap, arena, sizeof *arena);
+    otx_heap_free(heap, arena, sizeof *arena);
+    otx_heap_destroy(heap);
+}
+
+static void
+let_go(void *arena)
+{
+    otx_arena_destroy(arena);
+}
+
+bool
+otx_arena_hold(otx_arena *arena, otx_arena *other)
+{
+    if (!otx_arena_defer(arena, let_go, other))
+        return false;
+    atomic_fetch_add(&other->owners, 1);
+    return true;
 }
 
 static bool

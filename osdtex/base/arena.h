@@ -5,6 +5,9 @@
  * release. Foreign resources (plans, files, C++ objects) are registered with
  * `otx_arena_defer`, so that error paths have nothing to free.
  *
+ * Arenas are counted: one that refers into another holds it, and the other
+ * then outlives whoever destroys it first. So do heaps outlive their arenas.
+ *
  * An arena serves one thread; a worker of the pool has its own. */
 #ifndef OTX_BASE_ARENA_H
 #define OTX_BASE_ARENA_H
@@ -31,6 +34,7 @@ extern "C"
     } otx_heap_hooks;
 
     otx_heap *otx_heap_create(const otx_heap_hooks *hooks);
+    /* The heap itself goes with the last of its arenas. */
     void otx_heap_destroy(otx_heap *heap);
     void *otx_heap_alloc(otx_heap *heap, size_t bytes);
     void otx_heap_free(otx_heap *heap, void *block, size_t bytes);
@@ -67,6 +71,10 @@ extern "C"
      * point, last registered first. False when memory is out (the caller then
      * cleans up itself). */
     bool otx_arena_defer(otx_arena *arena, void (*fn)(void *), void *object);
+
+    /* Keeps `other` until `arena` is destroyed or released past this point,
+     * whoever destroys `other` before. False when memory is out. */
+    bool otx_arena_hold(otx_arena *arena, otx_arena *other);
 
     otx_arena_mark otx_arena_here(otx_arena *arena);
     void otx_arena_release(otx_arena *arena, otx_arena_mark mark);

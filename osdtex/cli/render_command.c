@@ -69,8 +69,9 @@ parse(job *j, const otx_flag_values *values)
 }
 
 static osdtex_status
-add_field(osdtex_context *context, job *j)
+join_field(osdtex_context *context, job *j)
 {
+    osdtex_model *bare = j->model;
     osdtex_cage_options plain = osdtex_cage_options_default();
     osdtex_surface_options level = osdtex_surface_options_default();
     osdtex_status status;
@@ -84,7 +85,11 @@ add_field(osdtex_context *context, job *j)
         status = osdtex_field_create(
             context, j->surface, &j->field_options, &j->field);
     if (status == OSDTEX_OK)
-        status = osdtex_model_add_field(context, j->model, j->field);
+        status = osdtex_model_join_field(context, bare, j->field, &j->model);
+    if (status == OSDTEX_OK)
+        osdtex_model_destroy(bare);
+    else
+        j->model = bare;
     return status;
 }
 
@@ -110,7 +115,7 @@ render(otx_session *session, job *j)
         osdtex_model_read(session->context, j->path, &j->model);
 
     if (status == OSDTEX_OK && j->shows_field)
-        status = add_field(session->context, j);
+        status = join_field(session->context, j);
     if (status != OSDTEX_OK)
         return status;
     if (!j->dry_run)

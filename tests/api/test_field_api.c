@@ -469,7 +469,7 @@ a_table_is_shown_on_a_written_model(void **state)
     osdtex_field_options options = osdtex_field_options_default();
     const osdtex_field_info *a, *b;
     osdtex_field *field, *again;
-    osdtex_model *model;
+    osdtex_model *model, *bare, *none;
     char path[64];
     scene s, coarse;
 
@@ -491,9 +491,11 @@ a_table_is_shown_on_a_written_model(void **state)
             a->singularities[i].vertex, b->singularities[i].vertex);
     for (int32_t i = 0; i < 3 * a->face_count; ++i)
         assert_true(fabs(a->directions[i] - b->directions[i]) < 1e-5);
-    assert_int_equal(osdtex_model_read(s.context, sphere, &model), OSDTEX_OK);
+    assert_int_equal(osdtex_model_read(s.context, sphere, &bare), OSDTEX_OK);
     assert_int_equal(
-        osdtex_model_add_field(s.context, model, again), OSDTEX_OK);
+        osdtex_model_join_field(s.context, bare, again, &model), OSDTEX_OK);
+    osdtex_model_destroy(bare);
+    osdtex_field_destroy(again);
     expect_drawn(s.context, model, "field");
     expect_drawn(s.context, model, "singularities");
 
@@ -502,12 +504,13 @@ a_table_is_shown_on_a_written_model(void **state)
     osdtex_field_destroy(field);
     field = make_field(&coarse, NULL, 2);
     assert_int_equal(
-        osdtex_model_add_field(s.context, model, field), OSDTEX_ERROR_ARGUMENT);
+        osdtex_model_join_field(s.context, model, field, &none),
+        OSDTEX_ERROR_ARGUMENT);
+    assert_null(none);
     assert_non_null(strstr(last_message(&s), "but the model has"));
     assert_int_equal(
         osdtex_field_write(coarse.context, field, 1, path), OSDTEX_OK);
     osdtex_model_destroy(model);
-    osdtex_field_destroy(again);
     assert_int_equal(
         osdtex_field_create(s.context, s.surface, &options, &again),
         OSDTEX_ERROR_ARGUMENT);

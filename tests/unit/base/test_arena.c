@@ -71,6 +71,25 @@ a_limit_is_kept(void **state)
     otx_heap_destroy(heap);
 }
 
+static void
+what_is_held_outlives_its_owner(void **state)
+{
+    otx_heap *heap = otx_heap_create(NULL);
+    otx_arena *held = otx_arena_create(heap);
+    otx_arena *holder = otx_arena_create(heap);
+    int calls = 0;
+
+    (void)state;
+    assert_true(otx_arena_defer(held, note_call, &calls));
+    assert_true(otx_arena_hold(holder, held));
+    /* Both owners leave before the holder does. */
+    otx_heap_destroy(heap);
+    otx_arena_destroy(held);
+    assert_int_equal(calls, 0);
+    otx_arena_destroy(holder);
+    assert_int_equal(calls, 1);
+}
+
 static int
 setup(void **state)
 {
@@ -93,6 +112,7 @@ main(void)
         cmocka_unit_test(a_product_that_overflows_is_refused),
         cmocka_unit_test(release_runs_what_was_deferred_since_the_mark),
         cmocka_unit_test(a_limit_is_kept),
+        cmocka_unit_test(what_is_held_outlives_its_owner),
     };
 
     return cmocka_run_group_tests(tests, setup, teardown);
