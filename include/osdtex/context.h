@@ -69,6 +69,16 @@ OSDTEX_API osdtex_status osdtex_context_create(
     const osdtex_context_options *options, osdtex_context **out);
 OSDTEX_API void osdtex_context_destroy(osdtex_context *context);
 
+/* Why the last call failed: the first error that it met, in its own words.
+ * Never NULL; `status` is OSDTEX_OK and `message` empty when it did not fail.
+ * Lent until the next call with this context or osdtex_diagnostic_clear.
+ *
+ *     if (osdtex_cage_read(context, path, NULL, &cage) != OSDTEX_OK)
+ *         fprintf(stderr, "%s\n", osdtex_context_error(context)->message);
+ */
+OSDTEX_API const osdtex_diagnostic *
+osdtex_context_error(const osdtex_context *context);
+
 /* Findings in the order of their first occurrence. */
 OSDTEX_API int32_t osdtex_diagnostic_count(const osdtex_context *context);
 /* ARGUMENT when there is no finding `index`. */

@@ -20,6 +20,7 @@ otx_call_begin(osdtex_context *context, const char *stage, otx_call *call)
 {
     if (!context)
         return OSDTEX_ERROR_ARGUMENT;
+    otx_diagnostics_forget_error(context->diagnostics);
     *call = (otx_call){
         .context = context,
         .stage = stage,

@@ -112,6 +112,22 @@ osdtex_context_destroy(osdtex_context *context)
     free(context);
 }
 
+const osdtex_diagnostic *
+osdtex_context_error(const osdtex_context *context)
+{
+    static const osdtex_diagnostic no_context = {
+        .severity = OSDTEX_SEVERITY_ERROR,
+        .status = OSDTEX_ERROR_ARGUMENT,
+        .stage = "context",
+        .face = -1,
+        .vertex = -1,
+        .count = 1,
+        .message = "no context is given",
+    };
+
+    return context ? otx_diagnostics_error(context->diagnostics) : &no_context;
+}
+
 int32_t
 osdtex_diagnostic_count(const osdtex_context *context)
 {

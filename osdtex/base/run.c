@@ -14,6 +14,8 @@
 enum
 {
     MESSAGE_BYTES = 1024,
+    STAGE_BYTES = 64,
+    PATH_BYTES = 4096,
     MAX_FINDINGS = 1000
 };
 
@@ -22,6 +24,17 @@ typedef struct finding
     osdtex_diagnostic public;
     const char *format;
 } finding;
+
+/* The error of the call that is running, or ended last, in storage of its own:
+ * it can be said when memory is out, and in its own words where findings fold
+ * it into one that was like it. */
+typedef struct fault
+{
+    osdtex_diagnostic public;
+    char message[MESSAGE_BYTES];
+    char stage[STAGE_BYTES];
+    char file[PATH_BYTES];
+} fault;
 
 struct otx_diagnostics
 {
@@ -32,6 +45,7 @@ struct otx_diagnostics
     void (*listener)(void *user, const osdtex_diagnostic *finding);
     void *listener_user;
     pthread_mutex_t mutex;
+    fault fault;
 };
 
 otx_diagnostics *
@@ -41,7 +55,9 @@ otx_diagnostics_create(otx_heap *heap)
 
     if (!d)
         return NULL;
-    *d = (otx_diagnostics){.heap = heap};
+    memset(d, 0, sizeof *d);
+    d->heap = heap;
+    otx_diagnostics_forget_error(d);
     d->arena = otx_arena_create(heap);
     if (d->arena)
         d->findings = OTX_NEW(d->arena, finding, MAX_FINDINGS);
@@ -84,6 +100,48 @@ otx_diagnostics_listen(
 {
     d->listener = fn;
     d->listener_user = user;
+}
+
+void
+otx_diagnostics_forget_error(otx_diagnostics *d)
+{
+    fault *f = &d->fault;
+
+    f->message[0] = f->stage[0] = f->file[0] = '\0';
+    f->public = (osdtex_diagnostic){
+        .severity = OSDTEX_SEVERITY_ERROR,
+        .stage = f->stage,
+        .face = -1,
+        .vertex = -1,
+        .count = 1,
+        .message = f->message};
+}
+
+const osdtex_diagnostic *
+otx_diagnostics_error(const otx_diagnostics *d)
+{
+    return &d->fault.public;
+}
+
+/* The first error of a call is its cause; others follow from it. */
+static void
+keep_error(
+    otx_diagnostics *d, const osdtex_diagnostic *said, const char *message)
+{
+    fault *f = &d->fault;
+
+    if (said->severity != OSDTEX_SEVERITY_ERROR ||
+        f->public.status != OSDTEX_OK)
+        return;
+    f->public = *said;
+    snprintf(f->message, sizeof f->message, "%s", message);
+    snprintf(f->stage, sizeof f->stage, "%s", said->stage);
+    f->public.message = f->message;
+    f->public.stage = f->stage;
+    if (!said->file)
+        return;
+    snprintf(f->file, sizeof f->file, "%s", said->file);
+    f->public.file = f->file;
 }
 
 static bool
@@ -151,6 +209,7 @@ report(
 
     vsnprintf(message, sizeof message, format, arguments);
     pthread_mutex_lock(&run->diagnostics->mutex);
+    keep_error(run->diagnostics, &f.public, message);
     keep(run->diagnostics, f, message);
     pthread_mutex_unlock(&run->diagnostics->mutex);
 }
@@ -192,7 +251,19 @@ otx_fail_memory(otx_run *run, const char *stage)
 otx_status
 otx_progress(otx_run *run, const char *stage, double fraction)
 {
+    const osdtex_diagnostic said = {
+        .severity = OSDTEX_SEVERITY_ERROR,
+        .status = OSDTEX_ERROR_CANCELLED,
+        .stage = stage,
+        .face = -1,
+        .vertex = -1,
+        .count = 1};
+
     if (!run->progress || run->progress(run->progress_user, stage, fraction))
         return OSDTEX_OK;
+    /* Whoever asked to stop needs no finding. */
+    pthread_mutex_lock(&run->diagnostics->mutex);
+    keep_error(run->diagnostics, &said, "the progress callback asked to stop");
+    pthread_mutex_unlock(&run->diagnostics->mutex);
     return OSDTEX_ERROR_CANCELLED;
 }

@@ -53,6 +53,11 @@ void otx_diagnostics_destroy(otx_diagnostics *diagnostics);
 int32_t otx_diagnostics_count(const otx_diagnostics *diagnostics);
 void otx_diagnostics_get(
     const otx_diagnostics *diagnostics, int32_t index, osdtex_diagnostic *out);
+/* The first error since errors were forgotten; its status is OSDTEX_OK when
+ * there was none. It is told even when there is no memory for a finding. */
+const osdtex_diagnostic *
+otx_diagnostics_error(const otx_diagnostics *diagnostics);
+void otx_diagnostics_forget_error(otx_diagnostics *diagnostics);
 /* Called for each new finding (not for repeats); NULL none. */
 void otx_diagnostics_listen(
     otx_diagnostics *diagnostics,

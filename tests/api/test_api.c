@@ -168,6 +168,57 @@ null_is_an_argument_or_nothing(void **state)
     osdtex_context_destroy(NULL);
 }
 
+/* Whoever is destroyed first, what others are made of stays. */
+static void
+handles_are_destroyed_in_any_order(void **state)
+{
+    meter m = {.fail_at = -1, .cancel_at = -1};
+    const osdtex_context_options options = metered(&m);
+    osdtex_render_options render = osdtex_render_options_default();
+    osdtex_context *context;
+    osdtex_image *again;
+    pipe p;
+
+    (void)state;
+    render.width = render.height = 16;
+    render.samples = 1;
+    assert_int_equal(osdtex_context_create(&options, &context), OSDTEX_OK);
+    assert_int_equal(pipe_run(context, &p), OSDTEX_OK);
+    osdtex_cage_destroy(p.cage);
+    osdtex_surface_destroy(p.surface);
+    osdtex_exemplar_destroy(p.exemplar);
+    osdtex_mapping_destroy(p.mapping);
+    assert_int_equal(
+        osdtex_render(context, p.model, &render, &again), OSDTEX_OK);
+    osdtex_context_destroy(context);
+    assert_memory_equal(
+        osdtex_image_describe(p.image)->pixels,
+        osdtex_image_describe(again)->pixels, 16 * 16 * 4 * sizeof(float));
+    osdtex_model_destroy(p.model);
+    osdtex_image_destroy(p.image);
+    osdtex_image_destroy(again);
+    assert_int_equal(m.blocks, 0);
+}
+
+static void
+the_last_call_says_why_it_failed(void **state)
+{
+    osdtex_context *context = *state;
+    osdtex_cage *cage;
+
+    assert_int_equal(osdtex_context_error(NULL)->status, OSDTEX_ERROR_ARGUMENT);
+    assert_int_equal(osdtex_context_error(context)->status, OSDTEX_OK);
+    assert_int_equal(
+        osdtex_cage_read(context, "no/such.obj", NULL, &cage), OSDTEX_ERROR_IO);
+    assert_int_equal(osdtex_context_error(context)->status, OSDTEX_ERROR_IO);
+    assert_string_equal(osdtex_context_error(context)->file, "no/such.obj");
+    assert_string_not_equal(osdtex_context_error(context)->message, "");
+    assert_int_equal(
+        osdtex_cage_read(context, cage_path, NULL, &cage), OSDTEX_OK);
+    assert_int_equal(osdtex_context_error(context)->status, OSDTEX_OK);
+    osdtex_cage_destroy(cage);
+}
+
 static void
 options_without_a_size_are_refused(void **state)
 {
@@ -458,6 +509,8 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_and_versions),
         WITH_CONTEXT(null_is_an_argument_or_nothing),
+        cmocka_unit_test(handles_are_destroyed_in_any_order),
+        WITH_CONTEXT(the_last_call_says_why_it_failed),
         WITH_CONTEXT(options_without_a_size_are_refused),
         WITH_CONTEXT(shorter_options_are_completed),
         WITH_CONTEXT(a_cube_from_arrays),

@@ -86,6 +86,32 @@ progress_can_cancel(void **state)
     test_run_destroy(run);
 }
 
+/* Findings fold by their format, but the error is told in its own words. */
+static void
+the_first_error_is_kept_in_its_own_words(void **state)
+{
+    otx_run *run = test_run_create();
+    const osdtex_diagnostic *error = otx_diagnostics_error(run->diagnostics);
+
+    (void)state;
+    assert_int_equal(error->status, OSDTEX_OK);
+    assert_string_equal(error->message, "");
+    for (int32_t i = 0; i < 2; ++i)
+    {
+        otx_diagnostics_forget_error(run->diagnostics);
+        (void)otx_fail(
+            run, OSDTEX_ERROR_FORMAT, "a", (otx_where){"f.obj", 7 + i, -1, -1},
+            "line %d", (int)i);
+        (void)otx_fail(run, OSDTEX_ERROR_IO, "b", OTX_NOWHERE, "follows");
+    }
+    assert_int_equal(error->status, OSDTEX_ERROR_FORMAT);
+    assert_string_equal(error->stage, "a");
+    assert_string_equal(error->file, "f.obj");
+    assert_int_equal(error->line, 8);
+    assert_string_equal(error->message, "line 1");
+    test_run_destroy(run);
+}
+
 int
 main(void)
 {
@@ -94,6 +120,7 @@ main(void)
         cmocka_unit_test(a_failure_returns_its_status_and_says_why),
         cmocka_unit_test(listeners_hear_new_findings_once),
         cmocka_unit_test(progress_can_cancel),
+        cmocka_unit_test(the_first_error_is_kept_in_its_own_words),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
