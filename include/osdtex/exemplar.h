@@ -44,7 +44,8 @@ typedef struct osdtex_exemplar_options
     size_t size;
     /* Colour spaces by name, alias or role; NULL: by the stated rules. */
     const char *from;        /* of the file */
-    const char *to;          /* of what is written; role scene_linear */
+    const char *to;          /* of what is written; role scene_linear,
+                              * linear Rec.709 without a configuration */
     const char *match_space; /* in which colours are compared */
     osdtex_embedding embedding;
     osdtex_wrap wrap;

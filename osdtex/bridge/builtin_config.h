@@ -3,7 +3,9 @@
  * The few spaces that a texture needs, with the names and aliases that the
  * ACES configurations give them, so that a script works with either. The
  * reference is ACES2065-1; linear Rec.709 is reached by the Bradford matrix
- * that OpenColorIO has built in. Profile version 2, which OpenColorIO 2.1
+ * that OpenColorIO has built in, and is scene_linear: without a configuration
+ * that is what every reader takes an EXR to hold, and what OpenEXR says of
+ * files without chromaticities. Profile version 2, which OpenColorIO 2.1
  * reads. There is no rule by colour space names in paths: "Raw" is found in
  * "/drawings/brick.png" too. */
 #ifndef OTX_BRIDGE_BUILTIN_CONFIG_H
@@ -24,8 +26,8 @@ roles:
   default: Raw
   matte_paint: sRGB - Texture
   reference: ACES2065-1
-  rendering: ACEScg
-  scene_linear: ACEScg
+  rendering: Linear Rec.709 (sRGB)
+  scene_linear: Linear Rec.709 (sRGB)
   texture_paint: sRGB - Texture
 
 file_rules:

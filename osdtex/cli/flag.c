@@ -177,7 +177,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "sRGB for integers and scene_linear for floats)"},
     [OTX_FLAG_TO] =
         {"to", 0, OTX_FLAG_GROUP_COLOUR, "SPACE",
-         "colour space of NAME.exr (default: role scene_linear)"},
+         "colour space of the textures that are written (default: role "
+         "scene_linear, which is linear Rec.709 without a configuration)"},
     [OTX_FLAG_MATCH_SPACE] =
         {"match-space", 0, OTX_FLAG_GROUP_COLOUR, "SPACE",
          "display-like space in which colours are compared (default: role "

@@ -382,6 +382,7 @@ write_usda(const writer *w)
         return otx_fail_memory(w->run, STAGE);
     otx_cage_model_usda(w->layout, w->names.stem, &usda);
     usda.texture = texture_name(w, ".exr");
+    usda.interop_id = w->exemplars->interop_id;
     if (!usda.texture)
         return otx_fail_memory(w->run, STAGE);
     OTX_TRY(list_comments(w, &usda.comments, &usda.comment_count));

@@ -285,25 +285,49 @@ write_mesh(otx_run *run, otx_text_out *out, const otx_usda *u, const char *name)
 /* ---- look -----------------------------------------------------------------
  */
 
-/* `$` stands for the model's name, `@` for the texture's. */
+/* UsdUVTexture knows two encodings: sRGB, and numbers that are taken as they
+ * are, by which an EXR is linear Rec.709 unless its attribute says otherwise.
+ */
+static const char *
+source_color_space(const otx_usda *u)
+{
+    return u->interop_id && strcmp(u->interop_id, "srgb_rec709_scene") == 0
+               ? "sRGB"
+               : "raw";
+}
+
+/* The asset and, as metadata of the attribute, the space of its colours, which
+ * UsdShade defines for what is colour managed. */
+static void
+write_texture(otx_text_out *out, const otx_usda *u)
+{
+    otx_text_out_char(out, '@');
+    otx_text_out_string(out, u->texture);
+    otx_text_out_char(out, '@');
+    if (!u->interop_id)
+        return;
+    otx_text_out_string(out, " (\n                colorSpace = \"");
+    otx_text_out_string(out, u->interop_id);
+    otx_text_out_string(out, "\"\n            )");
+}
+
+/* `$` stands for the model's name, `@` for the texture and `%` for how its
+ * numbers are encoded. */
 static void
 write_template(
-    otx_text_out *out, const char *text, const char *name, const char *texture)
+    otx_text_out *out, const char *text, const char *name, const otx_usda *u)
 {
     for (const char *c = text; *c; ++c)
         if (*c == '$')
             otx_text_out_string(out, name);
         else if (*c == '@')
-        {
-            otx_text_out_char(out, '@');
-            otx_text_out_string(out, texture);
-            otx_text_out_char(out, '@');
-        }
+            write_texture(out, u);
+        else if (*c == '%')
+            otx_text_out_string(out, source_color_space(u));
         else
             otx_text_out_char(out, *c);
 }
 
-/* An EXR is scene-linear, so its numbers are taken as they are: "raw". */
 static const char look[] =
     "    def Material \"Look\"\n"
     "    {\n"
@@ -323,7 +347,7 @@ static const char look[] =
     "        {\n"
     "            uniform token info:id = \"UsdUVTexture\"\n"
     "            asset inputs:file = @\n"
-    "            token inputs:sourceColorSpace = \"raw\"\n"
+    "            token inputs:sourceColorSpace = \"%\"\n"
     "            token inputs:wrapS = \"clamp\"\n"
     "            token inputs:wrapT = \"clamp\"\n"
     "            float2 inputs:st.connect = </$/Look/Reader.outputs:result>\n"
@@ -357,10 +381,10 @@ write_all(otx_run *run, otx_text_out *out, const otx_usda *u)
         out,
         "(\n    defaultPrim = \"$\"\n    upAxis = \"Y\"\n)\n\n"
         "def Xform \"$\" (\n    kind = \"component\"\n)\n{\n",
-        name, "");
+        name, u);
     if (!write_mesh(run, out, u, name))
         return otx_fail_memory(run, STAGE);
-    write_template(out, look, name, u->texture);
+    write_template(out, look, name, u);
     return otx_text_out_close(run, out);
 }
 

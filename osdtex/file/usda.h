@@ -41,6 +41,7 @@ typedef struct otx_usda
     otx_usda_subsets groups;
 
     const char *texture; /* file name relative to this one; may hold <UDIM> */
+    const char *interop_id; /* colorInteropID of its pixels; NULL unknown */
     const char *const *comments; /* [comment_count], without `#` */
     int32_t comment_count;
 } otx_usda;

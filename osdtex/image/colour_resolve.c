@@ -160,13 +160,29 @@ otx_colour_resolve(
     return resolve_default(run, colour, source, space);
 }
 
+/* What whoever loads pixels of `space` must know. Programs that read OBJ, USD
+ * or the web's formats take an EXR for linear Rec.709, and those that use a
+ * configuration for its scene_linear. */
+static const char *
+advice(const otx_colour *colour, const char *space)
+{
+    const char *id = otx_colour_interop_id(colour, space);
+
+    if (otx_ocio_is_data(colour->config, space))
+        return "";
+    if (id && strcmp(id, "lin_rec709_scene") == 0)
+        return ", which readers take an EXR to be in";
+    return "; tell it to readers that do not use this configuration: they take "
+           "an EXR to be in linear Rec.709";
+}
+
 static otx_status
 say_linear(
     otx_run *run, const otx_colour *colour, const char *space, const char *rule)
 {
     otx_note(
         run, OSDTEX_SEVERITY_INFO, stage, OTX_NOWHERE,
-        "output space: '%s' (%s)", space, rule);
+        "output space: '%s' (%s)%s", space, rule, advice(colour, space));
     if (!otx_colour_is_linear(colour, space))
         otx_note(
             run, OSDTEX_SEVERITY_WARNING, stage, OTX_NOWHERE,
@@ -174,6 +190,14 @@ say_linear(
             "and light it wrongly",
             space);
     return OSDTEX_OK;
+}
+
+const char *
+otx_colour_scene_linear(const otx_colour *colour)
+{
+    const char *space = otx_ocio_role(colour->config, "scene_linear");
+
+    return space ? space : otx_colour_known_linear(colour);
 }
 
 otx_status
@@ -185,14 +209,13 @@ otx_colour_resolve_linear(
         OTX_TRY(otx_colour_find(run, colour, "--to", to, space));
         return say_linear(run, colour, *space, "--to");
     }
-    *space = otx_ocio_role(colour->config, "scene_linear");
-    if (*space)
-        return say_linear(run, colour, *space, "role scene_linear");
-    *space = otx_colour_known_linear(colour);
+    *space = otx_colour_scene_linear(colour);
     if (*space)
         return say_linear(
             run, colour, *space,
-            "no role scene_linear: the first linear space that is known");
+            otx_ocio_role(colour->config, "scene_linear")
+                ? "role scene_linear"
+                : "no role scene_linear: the first linear space that is known");
     return otx_fail(
         run, OSDTEX_ERROR_COLOUR, stage, otx_where_file(colour->path),
         "the configuration has neither a role scene_linear nor a linear space "
@@ -242,7 +265,7 @@ otx_colour_resolve_match(
     otx_note(
         run, OSDTEX_SEVERITY_INFO, stage, OTX_NOWHERE,
         "matching space: %s%s%s (%s)%s", *space ? "'" : "",
-        *space ? *space : "the output space", *space ? "'" : "", rule,
+        *space ? *space : "the linear space", *space ? "'" : "", rule,
         *is_linear ? "; it is linear, so the sRGB curve is put on it" : "");
     return OSDTEX_OK;
 }

@@ -34,14 +34,24 @@ typedef struct build
     const char *source_space;
     const char *linear_space;
     const char *pixel_space; /* what `linear` is in, where --to is data */
-    const char *match_space; /* NULL: the linear picture with the sRGB curve */
+    const char *work_space;  /* what `work` is in; not a matter of --to */
+    const char *match_space; /* NULL: the work picture with the sRGB curve */
     bool match_is_linear;
     bool is_data;
+    row_result *rows;
+    otx_image work;  /* what is compared is made from; may be `linear` */
+    float low, high; /* over R, G, B of `work` */
+} build;
+
+/* One picture of linear light being made from the file's pixels. */
+typedef struct bringing
+{
+    const build *b;
+    const char *space;
+    const otx_image *to;
     bool divide_alpha;   /* colour is unassociated for the conversion */
     bool multiply_alpha; /* and associated again afterwards */
-    row_result *rows;
-    float low, high; /* over R, G, B of `linear` */
-} build;
+} bringing;
 
 /* ---- the linear picture ---- */
 
@@ -56,9 +66,9 @@ scale_colour(float *texel, float factor)
 static otx_status
 load_row(void *context, int64_t y, otx_worker *worker)
 {
-    const build *b = context;
-    const otx_image *from = &b->input->pixels;
-    const otx_image *to = &b->out->linear;
+    const bringing *g = context;
+    const otx_image *from = &g->b->input->pixels;
+    const otx_image *to = g->to;
     const int32_t step = from->channels >= 3 ? 1 : 0;
     (void)worker;
 
@@ -71,7 +81,7 @@ load_row(void *context, int64_t y, otx_worker *worker)
             out[k] = in[k * step];
         if (to->channels == 4)
             out[3] = in[from->channels - 1];
-        if (b->divide_alpha && out[3] > alpha_min)
+        if (g->divide_alpha && out[3] > alpha_min)
             scale_colour(out, 1.0F / out[3]);
     }
     return OSDTEX_OK;
@@ -81,8 +91,8 @@ load_row(void *context, int64_t y, otx_worker *worker)
 static otx_status
 finish_row(void *context, int64_t y, otx_worker *worker)
 {
-    const build *b = context;
-    const otx_image *image = &b->out->linear;
+    const bringing *g = context;
+    const otx_image *image = g->to;
     row_result r = {.bad_x = -1, .low = INFINITY, .high = -INFINITY};
     (void)worker;
 
@@ -91,7 +101,7 @@ finish_row(void *context, int64_t y, otx_worker *worker)
         float *texel = otx_image_at(image, x, (int32_t)y);
         bool finite = true;
 
-        if (b->multiply_alpha && !(b->divide_alpha && texel[3] <= alpha_min))
+        if (g->multiply_alpha && !(g->divide_alpha && texel[3] <= alpha_min))
             scale_colour(texel, texel[3]);
         for (int k = 0; k < image->channels; ++k)
             finite = finite && isfinite(texel[k]);
@@ -103,55 +113,70 @@ finish_row(void *context, int64_t y, otx_worker *worker)
             r.high = fmaxf(r.high, texel[k]);
         }
     }
-    b->rows[y] = r;
+    g->b->rows[y] = r;
     return OSDTEX_OK;
 }
 
 /* Rows from the top, as people count them. */
 static otx_status
-check_finite(build *b)
+check_finite(build *b, const bringing *g)
 {
-    const otx_image *image = &b->out->linear;
+    const int32_t height = g->to->height;
     otx_where where = OTX_NOWHERE;
 
     where.file = b->input->source.path;
     b->low = INFINITY;
     b->high = -INFINITY;
-    for (int32_t y = image->height - 1; y >= 0; --y)
+    for (int32_t y = height - 1; y >= 0; --y)
     {
         if (b->rows[y].bad_x >= 0)
             return otx_fail(
                 b->run, OSDTEX_ERROR_NUMERIC, stage, where,
                 "the pixel in column %d of row %d from the top is not finite "
                 "in '%s'; repair the picture or check the colour spaces",
-                b->rows[y].bad_x, image->height - 1 - y, b->linear_space);
+                b->rows[y].bad_x, height - 1 - y, g->space);
         b->low = fminf(b->low, b->rows[y].low);
         b->high = fmaxf(b->high, b->rows[y].high);
     }
     return OSDTEX_OK;
 }
 
+/* The file's pixels in `space`, in `arena`; their range goes into b->low and
+ * b->high. */
+static otx_status
+bring(build *b, otx_arena *arena, const char *space, otx_image *out)
+{
+    const otx_image *pixels = &b->input->pixels;
+    const bool premultiplied = b->input->alpha_is_premultiplied;
+    const bool has_alpha = pixels->channels == 2 || pixels->channels == 4;
+    const bool converts = strcmp(b->source_space, space) != 0;
+    bringing g = {.b = b, .space = space, .to = out};
+
+    OTX_TRY(otx_image_create(
+        b->run, arena, pixels->width, pixels->height, has_alpha ? 4 : 3, out));
+    /* Without a conversion premultiplied pixels pass bit by bit. */
+    g.divide_alpha = has_alpha && premultiplied && converts;
+    g.multiply_alpha =
+        has_alpha && !b->is_data && (g.divide_alpha || !premultiplied);
+    OTX_TRY(otx_pool_for(b->run->pool, out->height, load_row, &g));
+    if (converts)
+        OTX_TRY(
+            otx_colour_convert(b->run, b->colour, b->source_space, space, out));
+    OTX_TRY(otx_pool_for(b->run->pool, out->height, finish_row, &g));
+    return check_finite(b, &g);
+}
+
+/* What is copied, in the space that was asked for, and what is compared, which
+ * is the same picture unless another space than usual was asked for: so that
+ * the mapping is the same whatever space its texture is written in. */
 static otx_status
 build_linear(build *b)
 {
-    const otx_image *pixels = &b->input->pixels;
-    const bool has_alpha = pixels->channels == 2 || pixels->channels == 4;
-    const bool converts = strcmp(b->source_space, b->linear_space) != 0;
-    otx_image *linear = &b->out->linear;
-
-    OTX_TRY(otx_image_create(
-        b->run, b->run->arena, pixels->width, pixels->height, has_alpha ? 4 : 3,
-        linear));
-    /* Without a conversion premultiplied pixels pass bit by bit. */
-    b->divide_alpha = has_alpha && b->input->alpha_is_premultiplied && converts;
-    b->multiply_alpha = has_alpha && !b->is_data &&
-                        (b->divide_alpha || !b->input->alpha_is_premultiplied);
-    OTX_TRY(otx_pool_for(b->run->pool, linear->height, load_row, b));
-    if (converts)
-        OTX_TRY(otx_colour_convert(
-            b->run, b->colour, b->source_space, b->linear_space, linear));
-    OTX_TRY(otx_pool_for(b->run->pool, linear->height, finish_row, b));
-    return check_finite(b);
+    OTX_TRY(bring(b, b->run->arena, b->linear_space, &b->out->linear));
+    b->work = b->out->linear;
+    if (strcmp(b->pixel_space, b->work_space) == 0)
+        return OSDTEX_OK;
+    return bring(b, b->run->scratch, b->work_space, &b->work);
 }
 
 /* ---- the pictures that are compared ---- */
@@ -178,7 +203,7 @@ shape_row(void *context, int64_t y, otx_worker *worker)
 
     for (int32_t x = 0; x < v->display->width; ++x)
     {
-        const float *in = otx_image_at(&b->out->linear, x, (int32_t)y);
+        const float *in = otx_image_at(&b->work, x, (int32_t)y);
         float *out = otx_image_at(v->display, x, (int32_t)y);
 
         if (!b->is_data)
@@ -218,8 +243,8 @@ embed_row(void *context, int64_t y, otx_worker *worker)
     return OSDTEX_OK;
 }
 
-/* The display-like picture in `space`, or with the sRGB curve on the linear
- * one where there is no space. */
+/* The display-like picture in `space`, or with the sRGB curve on the work
+ * picture where there is no space. */
 static otx_status
 build_display(
     const build *b, const char *space, bool is_linear, otx_image *display)
@@ -231,7 +256,7 @@ build_display(
     OTX_TRY(otx_pool_for(run->pool, display->height, shape_row, &v));
     if (b->is_data || !space)
         return OSDTEX_OK;
-    OTX_TRY(otx_colour_convert(run, b->colour, b->pixel_space, space, display));
+    OTX_TRY(otx_colour_convert(run, b->colour, b->work_space, space, display));
     if (is_linear)
         return otx_pool_for(run->pool, display->height, encode_row, &v);
     return OSDTEX_OK;
@@ -386,7 +411,8 @@ resolve_spaces(build *b)
     b->is_data = otx_ocio_is_data(config, b->source_space);
     if (b->is_data)
     {
-        b->linear_space = b->pixel_space = b->match_space = b->source_space;
+        b->linear_space = b->pixel_space = b->source_space;
+        b->work_space = b->match_space = b->source_space;
         otx_note(
             b->run, OSDTEX_SEVERITY_INFO, stage, OTX_NOWHERE,
             "'%s' holds data: the pixels pass unchanged and are compared as "
@@ -400,6 +426,9 @@ resolve_spaces(build *b)
     b->pixel_space = otx_ocio_is_data(config, b->linear_space)
                          ? b->source_space
                          : b->linear_space;
+    b->work_space = otx_colour_scene_linear(b->colour);
+    if (!b->work_space)
+        b->work_space = b->pixel_space;
     return otx_colour_resolve_match(
         b->run, b->colour, input->match_space, &b->match_space,
         &b->match_is_linear);
@@ -449,7 +478,7 @@ static otx_status
 record(build *b)
 {
     otx_exemplar *out = b->out;
-    const char *match = b->match_space ? b->match_space : b->linear_space;
+    const char *match = b->match_space ? b->match_space : b->work_space;
 
     out->embedding = b->input->embedding;
     out->has_chromaticities = otx_colour_chromaticities(

@@ -58,10 +58,12 @@ def check_texts(folder, colors):
         assert f"map_Kd {texture}\n" in text, text
     usda = (folder / "shape.usda").read_text()
     assert f"@{name}@" in usda
+    assert 'colorSpace = "lin_rec709_scene"' in usda
+    assert 'sourceColorSpace = "raw"' in usda
     root = xml.parse(folder / "shape.mtlx").getroot()
     files = root.findall("./image/input[@name='file']")
     assert [f.get("value") for f in files] == [name]
-    assert files[0].get("colorspace") == "acescg"
+    assert files[0].get("colorspace") == "lin_rec709"
 
 
 def check_asset(folder):

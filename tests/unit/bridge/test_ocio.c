@@ -51,7 +51,7 @@ test_names_aliases_and_roles(void **state)
         {"ACEScg", "ACEScg"},
         {"acescg", "ACEScg"},
         {"lin_ap1_scene", "ACEScg"},
-        {"scene_linear", "ACEScg"},
+        {"scene_linear", "Linear Rec.709 (sRGB)"},
         {"ACES - ACES2065-1", "ACES2065-1"},
         {"aces_interchange", "ACES2065-1"},
         {"lin_rec709_scene", "Linear Rec.709 (sRGB)"},
@@ -72,7 +72,8 @@ test_names_aliases_and_roles(void **state)
     assert_null(otx_ocio_find(ocio, ""));
     assert_null(otx_ocio_find(ocio, NULL));
     assert_null(otx_ocio_role(ocio, "ACEScg"));
-    assert_string_equal(otx_ocio_role(ocio, "scene_linear"), "ACEScg");
+    assert_string_equal(
+        otx_ocio_role(ocio, "scene_linear"), "Linear Rec.709 (sRGB)");
     assert_true(otx_ocio_is_data(ocio, "Raw"));
     assert_false(otx_ocio_is_data(ocio, "ACEScg"));
     assert_false(otx_ocio_is_data(ocio, "no such space"));

@@ -45,6 +45,7 @@ small_cage(void)
         .face_hole = HOLES,
         .groups = {2, GROUPS, FACE_GROUP},
         .texture = "shirts.<UDIM>.exr",
+        .interop_id = "lin_ap1_scene",
     };
 }
 
@@ -96,7 +97,8 @@ everything_of_a_cage_is_said(void **state)
         "def GeomSubset \"group_0_left_arm\"",
         "def GeomSubset \"group_1_left_arm\"",
         "uniform token info:id = \"UsdPreviewSurface\"",
-        "asset inputs:file = @shirts.<UDIM>.exr@",
+        "asset inputs:file = @shirts.<UDIM>.exr@ (\n"
+        "                colorSpace = \"lin_ap1_scene\"\n            )\n",
         "token inputs:sourceColorSpace = \"raw\"",
     };
     otx_run *run = test_run_create();
@@ -120,7 +122,9 @@ what_is_not_there_is_not_said(void **state)
     usda.crease_count = usda.corner_tag_count = 0;
     usda.face_hole = NULL;
     usda.groups = (otx_usda_subsets){0, NULL, NULL};
+    usda.interop_id = NULL;
     text = written(run, &usda);
+    assert_null(strstr(text, "colorSpace ="));
     assert_null(strstr(text, "crease"));
     assert_null(strstr(text, "corner"));
     assert_null(strstr(text, "hole"));

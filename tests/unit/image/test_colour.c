@@ -75,7 +75,7 @@ test_order(void **state)
          "Linear Rec.709 (sRGB)",
          "chromaticities"},
         {{.path = "e_nrm_.exr", .is_float = true}, "Raw", "file rule Data"},
-        {{.path = "f.exr", .is_float = true}, "ACEScg", "scene_linear"},
+        {{.path = "f.exr", .is_float = true}, "Linear Rec.709 (sRGB)", "scene_linear"},
         {{.path = "g.png"}, "sRGB - Texture", "integer"},
         {{.path = "h.exr", .interop_id = "data"}, "Raw", "colorInteropID"},
         {{.path = "i.png", .interop_id = "srgb_rec709_scene"},
@@ -126,7 +126,7 @@ test_unknown_tags_are_passed_over(void **state)
     assert_int_equal(warning_count(run), 0);
     assert_int_equal(
         otx_colour_resolve(run, &colour, &source, &space), OSDTEX_OK);
-    assert_string_equal(space, "ACEScg");
+    assert_string_equal(space, "Linear Rec.709 (sRGB)");
     assert_int_equal(warning_count(run), 3);
     test_run_destroy(run);
 }

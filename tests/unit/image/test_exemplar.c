@@ -71,11 +71,11 @@ test_png_like(void **state)
     assert_string_equal(e.source_path, "a.png");
     assert_string_equal(e.source_hash, "cafe");
     assert_string_equal(e.source_space, "sRGB - Texture");
-    assert_string_equal(e.linear_space, "ACEScg");
+    assert_string_equal(e.linear_space, "Linear Rec.709 (sRGB)");
     assert_string_equal(e.match_space, "sRGB - Texture");
-    assert_string_equal(e.interop_id, "lin_ap1_scene");
+    assert_string_equal(e.interop_id, "lin_rec709_scene");
     assert_true(e.has_chromaticities);
-    assert_true(e.chromaticities[0] == 0.713F);
+    assert_true(e.chromaticities[0] == 0.64F);
     assert_int_equal(e.match.width, 40);
     assert_int_equal(e.match.height, 24);
     assert_int_equal(e.match.channels, 3);
@@ -93,6 +93,37 @@ test_png_like(void **state)
             assert_true(fabsf(point[k] - e.lab.pixels[3 * i + k]) < 5e-3F);
     }
     test_run_destroy(run);
+}
+
+/* What is compared does not depend on the space that is written, byte by byte:
+ * not with highlights above 1 nor with alpha either. */
+static void
+test_output_space_is_no_matter_of_matching(void **state)
+{
+    static const char *const spaces[] = {
+        "ACEScg", "ACES2065-1", "sRGB - Texture", "Raw", "lin_rec709"};
+    (void)state;
+
+    for (int32_t channels = 3; channels <= 4; ++channels)
+    {
+        otx_run *run = test_run_create();
+        otx_exemplar_input input = {.pixels = noise(run, 20, 16, channels)};
+
+        input.pixels.pixels[channels] = 7.5F;
+        const otx_exemplar usual = build(run, &input);
+
+        for (size_t i = 0; i < sizeof spaces / sizeof spaces[0]; ++i)
+        {
+            input.to = spaces[i];
+            const otx_exemplar e = build(run, &input);
+            const size_t bytes = sizeof(float) * 20 * 16 * 3;
+
+            assert_memory_equal(e.match.pixels, usual.match.pixels, bytes);
+            assert_memory_equal(e.lab.pixels, usual.lab.pixels, bytes);
+            assert_true(e.wrap_x == usual.wrap_x && e.wrap_y == usual.wrap_y);
+        }
+        test_run_destroy(run);
+    }
 }
 
 /* The figures against their definitions, by brute force over pairs. */
@@ -183,7 +214,7 @@ test_alpha(void **state)
             fabsf(e.linear.pixels[k] - 0.5F * plain.linear.pixels[k]) < 1e-6F);
 
     input.pixels = fill(run, 8, 4, glow);
-    input.source.from = "ACEScg";
+    input.source.from = input.to = "ACEScg";
     e = build(run, &input);
     assert_memory_equal(e.linear.pixels, glow, sizeof glow);
     test_run_destroy(run);
@@ -357,6 +388,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_png_like),
+        cmocka_unit_test(test_output_space_is_no_matter_of_matching),
         cmocka_unit_test(test_statistics),
         cmocka_unit_test(test_constant),
         cmocka_unit_test(test_alpha),
