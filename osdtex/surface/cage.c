@@ -324,7 +324,8 @@ build(
             run->scratch, in->vert_count, in->face_count, in->face_first,
             in->face_verts, &topology))
         return otx_fail_memory(run, STAGE);
-    OTX_TRY(otx_cage_check_manifold(run, in, &topology, options->scheme));
+    OTX_TRY(otx_cage_check_manifold(
+        run, in, &topology, options->scheme, &cage->split_count));
     OTX_TRY(copy_mesh(run, in, uvs, cage));
     OTX_TRY(copy_point_lines(run, in, cage));
     OTX_TRY(copy_carried(run, in, cage));

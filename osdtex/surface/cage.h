@@ -2,8 +2,9 @@
  *
  * Everything that OpenSubdiv would crash on or silently swallow is refused
  * here, with file, line and face. Order of vertices and faces is the file's.
- * Edges are manifold (one or two faces, consistent winding) and so are
- * vertices; see the list of checks in docs/notes/cage.md. */
+ * Edges are manifold (one or two faces, consistent winding); vertices may have
+ * several fans of faces, which refinement parts (surface/pinch.h). See the list
+ * of checks in docs/notes/cage.md. */
 #ifndef OTX_SURFACE_CAGE_H
 #define OTX_SURFACE_CAGE_H
 
@@ -52,6 +53,9 @@ typedef struct otx_cage
     size_t point_line_bytes;
     const int32_t *face_first; /* [face_count + 1], offsets into corners */
     const int32_t *face_verts; /* [corner_count] */
+    int32_t split_count; /* fans of faces beyond the first of a vertex: how
+                          * many vertices refinement adds; 0 of a plain
+                          * mesh */
 
     int32_t uv_count;        /* 0: the cage has no UVs */
     const float *uvs;        /* [uv_count * 2] */

@@ -367,24 +367,56 @@ check_fan(
             "vertex %d joins %d faces, over the limit of %d; dissolve some of "
             "its edges",
             vertex, f.faces, OTX_CAGE_VALENCE_MAX);
-    if (otx_topology_fan_size(t, f.start) != f.faces)
-        return otx_fail(
-            run, OSDTEX_ERROR_TOPOLOGY, STAGE, where,
-            "parts of the mesh touch only at vertex %d (one of them at face "
-            "%d); split the vertex or join the parts along an edge",
-            vertex, where.face);
+    return OSDTEX_OK;
+}
+
+/* Parts that touch only at vertices are parted there (surface/pinch.h).
+ *
+ *   used  vertices with faces */
+static otx_status
+count_pinches(
+    otx_run *run, const otx_cage_input *in, const otx_topology *t,
+    const otx_topology_fan *fans, int32_t used, int32_t *split_count)
+{
+    const int32_t count = otx_topology_fan_count(run->scratch, t);
+    otx_where where = OTX_NOWHERE;
+    int32_t pinches = 0;
+
+    if (count < 0)
+        return otx_fail_memory(run, STAGE);
+    *split_count = count - used;
+    if (count == used)
+        return OSDTEX_OK;
+    for (int32_t v = 0; v < t->vert_count; ++v)
+    {
+        if (fans[v].start < 0 ||
+            otx_topology_fan_size(t, fans[v].start) == fans[v].faces ||
+            pinches++ > 0)
+            continue;
+        where = at_face(in, t->corner_face[fans[v].start]);
+        where.vertex = v;
+    }
+    otx_note(
+        run, OSDTEX_SEVERITY_WARNING, STAGE, where,
+        "parts of the mesh touch only at %d %s (first is vertex %d, at face "
+        "%d); each part gets a vertex of its own there, and its corner stays "
+        "where it is",
+        pinches, pinches == 1 ? "vertex" : "vertices", where.vertex,
+        where.face);
     return OSDTEX_OK;
 }
 
 static otx_status
 check_fans(
-    otx_run *run, const otx_cage_input *in, const otx_topology *t, bool plain)
+    otx_run *run, const otx_cage_input *in, const otx_topology *t, bool plain,
+    int32_t *split_count)
 {
     const otx_topology_fan *fans = otx_topology_fans(run->scratch, t);
     otx_status status = OSDTEX_OK;
     int32_t isolated = 0;
     otx_where where = OTX_NOWHERE;
 
+    *split_count = 0;
     if (!fans)
         return otx_fail_memory(run, STAGE);
     for (int32_t v = 0; v < t->vert_count; ++v)
@@ -400,7 +432,10 @@ check_fans(
             "%d vertices belong to no face (first is vertex %d); they are "
             "kept, and have no effect",
             isolated, where.vertex);
-    return status;
+    if (plain || status != OSDTEX_OK)
+        return status;
+    return count_pinches(
+        run, in, t, fans, t->vert_count - isolated, split_count);
 }
 
 /* A plain mesh is not refused for what it is not: where it is no manifold it
@@ -432,7 +467,7 @@ note_cut(
 otx_status
 otx_cage_check_manifold(
     otx_run *run, const otx_cage_input *in, const otx_topology *t,
-    otx_scheme scheme)
+    otx_scheme scheme, int32_t *split_count)
 {
     const bool plain = scheme == OTX_SCHEME_NONE;
     otx_status status = OSDTEX_OK;
@@ -445,7 +480,7 @@ otx_cage_check_manifold(
             record(&status, check_edge(run, in, t, e));
     }
     OTX_TRY(status);
-    return check_fans(run, in, t, plain);
+    return check_fans(run, in, t, plain, split_count);
 }
 
 /* Whether the area vector of a face (Newell's sum) vanishes beside its edges.

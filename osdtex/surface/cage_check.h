@@ -22,13 +22,16 @@ otx_status otx_cage_check_points(otx_run *run, const otx_cage_input *input);
 otx_status
 otx_cage_check_uvs(otx_run *run, const otx_cage_input *input, bool *usable);
 
-/* One or two faces at every edge, wound alike, and one fan of faces at every
- * vertex, of at most OTX_CAGE_VALENCE_MAX edges. Of a plain mesh what is not
- * so is a warning, since it can be cut there. Warns of vertices without
- * faces. */
+/* One or two faces at every edge, wound alike, and at most
+ * OTX_CAGE_VALENCE_MAX edges at every vertex. Of a plain mesh what is not so is
+ * a warning, since it can be cut there. Warns of vertices without faces, and of
+ * vertices at which parts only touch.
+ *
+ *   split_count  fans of faces beyond the first of a vertex; 0 of a plain
+ *                mesh */
 otx_status otx_cage_check_manifold(
     otx_run *run, const otx_cage_input *input, const otx_topology *topology,
-    otx_scheme scheme);
+    otx_scheme scheme, int32_t *split_count);
 
 /* Warns of faces without area. */
 void otx_cage_check_areas(otx_run *run, const otx_cage_input *input);

@@ -11,6 +11,7 @@
 #include "surface/refine.h"
 
 #include "bridge/opensubdiv.h"
+#include "surface/pinch.h"
 
 #include <string.h>
 
@@ -39,7 +40,7 @@ typedef struct task
 
 typedef struct refinement
 {
-    const otx_cage *cage;
+    const otx_cage *cage; /* parted at its pinch vertices */
     const otx_osd *osd;
     int32_t level; /* asked for */
     int32_t depth; /* refined to: the level, and at least 1 */
@@ -327,8 +328,10 @@ pin_isolated(const refinement *r, uint8_t *used)
     }
 }
 
+/*   cage  as it came, pinch vertices and all */
 static otx_status
-publish(otx_run *run, const refinement *r, otx_surface *out)
+publish(
+    otx_run *run, const refinement *r, const otx_cage *cage, otx_surface *out)
 {
     otx_level *levels = OTX_NEW(run->arena, otx_level, r->level + 1);
     const bool own_uvs = r->level > 0;
@@ -357,7 +360,7 @@ publish(otx_run *run, const refinement *r, otx_surface *out)
             .face_cage = r->face_cage[l]};
     }
     *out = (otx_surface){
-        .cage = r->cage,
+        .cage = cage,
         .level_count = r->level + 1,
         .levels = levels,
         .points = r->points,
@@ -428,10 +431,14 @@ refine_topology(otx_run *run, refinement *r)
 }
 
 static otx_status
-refine(otx_run *run, refinement *r, otx_surface *out)
+refine(otx_run *run, const otx_cage *cage, refinement *r, otx_surface *out)
 {
-    uint8_t *used = OTX_ZNEW(run->scratch, uint8_t, r->cage->vert_count);
+    otx_cage parted;
+    uint8_t *used;
 
+    OTX_TRY(otx_pinch_split(run, cage, &parted));
+    r->cage = &parted;
+    used = OTX_ZNEW(run->scratch, uint8_t, parted.vert_count);
     if (!used)
         return OSDTEX_ERROR_MEMORY;
     OTX_TRY(refine_topology(run, r));
@@ -442,7 +449,7 @@ refine(otx_run *run, refinement *r, otx_surface *out)
     if (r->depth > r->level)
         OTX_TRY(keep_level_0(run, r));
     pin_isolated(r, used);
-    return publish(run, r, out);
+    return publish(run, r, cage, out);
 }
 
 otx_status
@@ -451,10 +458,9 @@ otx_refine_cage(
     float **tangents)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    refinement r = {
-        .cage = cage, .level = level, .depth = level > 0 ? level : 1};
+    refinement r = {.level = level, .depth = level > 0 ? level : 1};
     otx_where where = OTX_NOWHERE;
-    const otx_status status = refine(run, &r, out);
+    const otx_status status = refine(run, cage, &r, out);
 
     otx_arena_release(run->scratch, mark);
     *tangents = r.tangents;

@@ -24,8 +24,8 @@ static counts
 count_level(const otx_cage *cage, int32_t level)
 {
     counts n = {
-        cage->face_count, cage->vert_count, cage->edge_count,
-        cage->corner_count};
+        cage->face_count, (double)cage->vert_count + cage->split_count,
+        cage->edge_count, cage->corner_count};
 
     for (int32_t l = 0; l < level; ++l)
     {

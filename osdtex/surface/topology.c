@@ -167,3 +167,37 @@ otx_topology_fan_size(const otx_topology *t, int32_t start)
     } while (corner >= 0 && corner != start);
     return count;
 }
+
+/* Marks the corners that a walk around their vertex meets from `start`. */
+static void
+mark_fan(const otx_topology *t, int32_t start, uint8_t *seen)
+{
+    int32_t corner = start;
+
+    do
+    {
+        seen[corner] = 1;
+        corner = otx_topology_twin(t, otx_topology_previous(t, corner));
+    } while (corner >= 0 && corner != start);
+}
+
+/* Open fans are walked from their open side, so that a walk meets all of one;
+ * what is left then are closed ones. */
+int32_t
+otx_topology_fan_count(otx_arena *arena, const otx_topology *t)
+{
+    uint8_t *seen = OTX_ZNEW(arena, uint8_t, t->corner_count);
+    int32_t count = 0;
+
+    if (!seen)
+        return -1;
+    for (int open = 1; open >= 0; --open)
+        for (int32_t c = 0; c < t->corner_count; ++c)
+        {
+            if (seen[c] || (open && otx_topology_twin(t, c) >= 0))
+                continue;
+            mark_fan(t, c, seen);
+            ++count;
+        }
+    return count;
+}

@@ -52,6 +52,11 @@ otx_topology_fans(otx_arena *arena, const otx_topology *topology);
  * manifold when these are all it has. */
 int32_t otx_topology_fan_size(const otx_topology *topology, int32_t start);
 
+/* How many fans of faces there are around all vertices together: as many as
+ * vertices with faces where the mesh is a manifold, more where parts only
+ * touch. Of a mesh with manifold edges; -1 when memory is out. */
+int32_t otx_topology_fan_count(otx_arena *arena, const otx_topology *topology);
+
 /* The corner after and before `corner` in its face. */
 static inline int32_t
 otx_topology_next(const otx_topology *topology, int32_t corner)
