@@ -20,6 +20,14 @@
  * there. Tests that need it skip with a message where it is absent. */
 #define SHARED_DATA "../shared/data"
 
+/* Ends a test as skipped. tests/run_test.py gathers the sentences. */
+#define test_skip(sentence)                                                    \
+    do                                                                         \
+    {                                                                          \
+        print_message("skipped: %s\n", sentence);                              \
+        skip();                                                                \
+    } while (0)
+
 /* A heap that fails once `left` allocations have succeeded. */
 typedef struct test_ration
 {

@@ -3,7 +3,9 @@
 The program's path is the first argument of every test script; the working
 directory is the root of the project."""
 
+import importlib.util
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -44,6 +46,15 @@ class ProgramTest(unittest.TestCase):
         return self.run_program(
             "map", cage, exemplar, "-o", self.folder / name, *more, **keywords)
 
+    def need(self, *programs, modules=()):
+        """Skips where a program or a Python module is missing."""
+        for name in programs:
+            if not shutil.which(name):
+                self.skipTest(f"no {name} (tools/deps test medium)")
+        for name in modules:
+            if not importlib.util.find_spec(name):
+                self.skipTest(f"no Python module {name} (tools/deps test)")
+
     def assert_exit(self, result, code):
         self.assertEqual(
             result.returncode, code,
@@ -62,4 +73,5 @@ class ProgramTest(unittest.TestCase):
 
 
 def main():
-    unittest.main(argv=sys.argv[:1])
+    # Verbose, so that it says why a test is skipped.
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -39,6 +39,7 @@ class Plan(JobTest):
         self.assertIn("Executable=osdtex\n", files["plugin_info.job"])
 
     def test_make_gives_the_bytes_of_one_process(self):
+        self.need("make")
         alone, farm = (self.write_job(n, TASKS) for n in ("alone", "fa rm$'s"))
         self.run_all(alone, 2)
         self.plan(farm, "make")

@@ -67,6 +67,8 @@ class SuiteTest(ProgramTest):
 
     def regress(self, *arguments, damage=None, victim="", **more):
         environment = {}
+        if damage == "pixel":
+            self.need(modules=["PIL"])
         if damage:
             wrapper = self.folder / "wrapper.py"
             wrapper.write_text(WRAPPER)

@@ -207,7 +207,7 @@ test_hostile_are_refused(void **state)
     expect_refused("README.nothing", "does not exist");
     expect_refused("CMakeLists.txt", "no configuration");
     if (access(SHARED_DATA, R_OK) != 0)
-        skip();
+        test_skip("no " SHARED_DATA);
     expect_refused(HOSTILE "ocio_tabs.ocio", "line 40");
     expect_refused(HOSTILE "ocio_truncated.ocio", "color_picking");
     expect_refused(HOSTILE "ocio_unknown_transform.ocio", "NoSuchTransform");
@@ -225,7 +225,7 @@ test_hostile_fail_in_use(void **state)
     (void)state;
 
     if (access(SHARED_DATA, R_OK) != 0)
-        skip();
+        test_skip("no " SHARED_DATA);
     assert_int_equal(
         otx_ocio_open(HOSTILE "ocio_missing_lut.ocio", &ocio, message),
         OSDTEX_OK);
@@ -253,7 +253,7 @@ test_prefixes(void **state)
     (void)state;
 
     if (!in)
-        skip();
+        test_skip("no " SHARED_DATA);
 
     const size_t bytes = fread(text, 1, sizeof text, in);
     const int handle = mkstemp(path);

@@ -81,7 +81,7 @@ real_models_obey_poincare_hopf(void **state)
         s = field_from_file(run, path, 1);
         if (!s)
         {
-            print_message("%s is not there: skipped\n", path);
+            print_message("skipped: %s is not there\n", path);
             test_run_destroy(run);
             skip();
         }

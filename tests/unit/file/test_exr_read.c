@@ -47,7 +47,7 @@ make(const fixture *f, const char *arguments)
 
     if (!test_has_tool("oiiotool"))
     {
-        print_message("oiiotool is not installed\n");
+        print_message("skipped: oiiotool is not installed\n");
         skip();
     }
     snprintf(command, sizeof command, "oiiotool %s", arguments);
@@ -328,7 +328,7 @@ test_non_finite_photograph(void **state)
     (void)state;
     if (access(path, R_OK) != 0)
     {
-        print_message("%s is absent\n", path);
+        print_message("skipped: %s is absent\n", path);
         skip();
     }
     run = test_run_create();

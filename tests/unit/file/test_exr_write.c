@@ -91,7 +91,7 @@ test_oiio_reads_every_level(void **state)
     (void)state;
     if (!test_has_tool("oiiotool"))
     {
-        print_message("oiiotool is not installed\n");
+        print_message("skipped: oiiotool is not installed\n");
         skip();
     }
     for (int s = 0; s < SIZE_COUNT; ++s)
@@ -168,7 +168,7 @@ test_header_says_what_is_asked(void **state)
         picture.chromaticities, options.chromaticities,
         sizeof picture.chromaticities);
     if (!test_has_tool("exrheader"))
-        print_message("exrheader is not installed\n");
+        print_message("skipped: exrheader is not installed\n");
     else
     {
         const char *text;

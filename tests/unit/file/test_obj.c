@@ -363,7 +363,7 @@ cages_have_the_counts_of_their_table(void **state)
     (void)state;
     if (!table)
     {
-        print_message("no " SHARED_DATA "/cages\n");
+        print_message("skipped: no " SHARED_DATA "/cages\n");
         skip();
     }
     while (fgets(row, sizeof row, table))
@@ -414,7 +414,7 @@ hostile_files_parse_or_fail_with_one_sentence(void **state)
     (void)state;
     if (!folder)
     {
-        print_message("no " SHARED_DATA "/hostile\n");
+        print_message("skipped: no " SHARED_DATA "/hostile\n");
         skip();
     }
     while ((entry = readdir(folder)))

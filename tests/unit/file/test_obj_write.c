@@ -194,7 +194,7 @@ real_cages_round_trip(void **state)
 
     if (access(SHARED_DATA "/cages", R_OK) != 0)
     {
-        print_message("no " SHARED_DATA "/cages\n");
+        print_message("skipped: no " SHARED_DATA "/cages\n");
         skip();
     }
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
@@ -230,7 +230,7 @@ a_full_disk_is_told(void **state)
     const otx_obj obj = test_obj_parse(f->run, "v 0 0 0\n");
 
     if (access("/dev/full", W_OK) != 0)
-        skip();
+        test_skip("no /dev/full");
     assert_int_equal(
         otx_obj_write(f->run, &obj, "/dev/full", NULL), OSDTEX_ERROR_IO);
     assert_non_null(strstr(test_last_message(f->run), "full"));

@@ -163,7 +163,7 @@ test_hostile_files_do_no_harm(void **state)
     (void)state;
     if (!dir)
     {
-        print_message(SHARED_DATA " is absent\n");
+        print_message("skipped: " SHARED_DATA " is absent\n");
         rmdir(folder.path);
         skip();
     }
@@ -212,7 +212,7 @@ test_photographs_are_read(void **state)
     (void)state;
     if (!dir)
     {
-        print_message(SHARED_DATA " is absent\n");
+        print_message("skipped: " SHARED_DATA " is absent\n");
         skip();
     }
     for (struct dirent *e; (e = readdir(dir));)

@@ -166,7 +166,7 @@ test_other_programs_files_are_read_alike(void **state)
     if (access(SHARED_DATA "/textures", R_OK) != 0 ||
         !test_has_tool("oiiotool"))
     {
-        print_message(SHARED_DATA " or oiiotool is absent\n");
+        print_message("skipped: " SHARED_DATA " or oiiotool is absent\n");
         rmdir(folder.path);
         test_run_destroy(run);
         skip();

@@ -69,7 +69,7 @@ the_first_failure_is_told_once(void **state)
     osdtex_diagnostic d;
 
     if (access("/dev/full", W_OK) != 0)
-        skip();
+        test_skip("no /dev/full");
     assert_int_equal(
         otx_text_out_open(f->run, "test", "/dev/full", "out.obj", &out),
         OSDTEX_OK);

@@ -299,7 +299,7 @@ read_photograph(otx_run *run, const char *name, otx_image *out)
     snprintf(path, sizeof path, SHARED_DATA "/textures/%s.png", name);
     if (otx_picture_read(run, path, &picture) != OSDTEX_OK)
     {
-        print_message("%s is not there: skipped\n", path);
+        print_message("skipped: %s is not there\n", path);
         return false;
     }
     *out = picture.image;
@@ -338,7 +338,7 @@ photographs_are_told_apart(void **state)
         if (!read_photograph(run, photographs[i].name, &pixels))
         {
             test_run_destroy(run);
-            skip();
+            test_skip("no " SHARED_DATA);
         }
         a = analyse_pixels(run, pixels);
         if (a.kind != photographs[i].kind)
@@ -400,7 +400,7 @@ turned_photographs_keep_their_class(void **state)
         if (!read_photograph(run, photographs[i].name, &pixels))
         {
             test_run_destroy(run);
-            skip();
+            test_skip("no " SHARED_DATA);
         }
         if (pixels.width > 700)
         {

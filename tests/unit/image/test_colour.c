@@ -204,7 +204,7 @@ test_configurations(void **state)
     (void)state;
 
     if (access(SHARED_DATA, R_OK) != 0)
-        skip();
+        test_skip("no " SHARED_DATA);
     for (size_t i = 0; i < sizeof table / sizeof table[0]; ++i)
     {
         const otx_colour_source byte = {.path = "brick.png"};
@@ -249,7 +249,7 @@ test_names_in_paths_are_words(void **state)
     if (access(SHARED_DATA, R_OK) != 0)
     {
         test_run_destroy(run);
-        skip();
+        test_skip("no " SHARED_DATA);
     }
     assert_int_equal(otx_colour_open(run, DEMO, NULL, &colour), OSDTEX_OK);
     check_rows(run, &colour, rows, sizeof rows / sizeof rows[0]);
@@ -297,7 +297,7 @@ test_bad_configurations(void **state)
     (void)state;
 
     if (access(SHARED_DATA, R_OK) != 0)
-        skip();
+        test_skip("no " SHARED_DATA);
     for (size_t i = 0; i < sizeof paths / sizeof paths[0]; ++i)
     {
         otx_run *run = test_run_create();
@@ -330,7 +330,7 @@ test_missing_table(void **state)
     if (access(SHARED_DATA, R_OK) != 0)
     {
         test_run_destroy(run);
-        skip();
+        test_skip("no " SHARED_DATA);
     }
     assert_int_equal(
         otx_colour_open(run, HOSTILE "ocio_missing_lut.ocio", NULL, &colour),

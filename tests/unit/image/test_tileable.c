@@ -136,7 +136,7 @@ test_photographs(void **state)
     (void)state;
 
     if (access(SHARED_DATA "/textures", R_OK) != 0)
-        skip();
+        test_skip("no " SHARED_DATA);
     for (size_t i = 0; i < sizeof table / sizeof table[0]; ++i)
     {
         otx_run *run = test_run_create();

@@ -202,7 +202,7 @@ has_what_it_needs(void)
 
     if (!file || !test_has_tool("oiiotool"))
     {
-        print_message("no " SHARED_DATA " or no oiiotool\n");
+        print_message("skipped: no " SHARED_DATA " or no oiiotool\n");
         if (file)
             fclose(file);
         return false;
