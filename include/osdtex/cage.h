@@ -119,8 +119,8 @@ typedef struct osdtex_cage_info
     osdtex_index boundary_edge_count;
     osdtex_index material_count;
     osdtex_index group_count;
-    float lower[3]; /* of the bounding box, scene units */
-    float upper[3];
+    double lower[3]; /* of the bounding box, scene units */
+    double upper[3];
     double diagonal;         /* of the bounding box */
     double mean_edge_length; /* scene units */
     double default_scale;    /* what a scale of 0 means: diagonal / 5 */

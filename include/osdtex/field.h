@@ -38,8 +38,9 @@ osdtex_field_options_default(void)
 typedef struct osdtex_singularity
 {
     osdtex_index vertex; /* of the surface */
-    float point[3];
-    double index; /* a multiple of 1 / symmetry, not 0 */
+    int32_t reserved;
+    double point[3]; /* scene units */
+    double index;    /* a multiple of 1 / symmetry, not 0 */
 } osdtex_singularity;
 
 /* On the leaf level of the surface. */

@@ -42,7 +42,7 @@ typedef struct osdtex_surface_info
     osdtex_index vert_count;
     osdtex_index face_count;
     osdtex_index corner_count;
-    const float *points;            /* [vert_count * 3], scene units */
+    const float *points;            /* [vert_count * 3], less `origin` */
     const float *normals;           /* [vert_count * 3], unit */
     const float *tangents;          /* [vert_count * 6], unit pairs */
     const osdtex_index *face_first; /* [face_count + 1], into corners */
@@ -55,6 +55,8 @@ typedef struct osdtex_surface_info
     osdtex_index reserved;
     double area;             /* scene units squared, without holes */
     double mean_edge_length; /* scene units */
+    double origin[3];        /* what `points` are relative to: zero, but of a
+                              * cage far away from the scene's origin */
 } osdtex_surface_info;
 
 /* ARGUMENT, LIMIT (predicted memory over the context's, too many elements),

@@ -32,6 +32,7 @@ input_from_obj(const otx_obj *obj)
     input.face_count = obj->face_count;
     input.uv_count = obj->uv_count;
     input.points = obj->points;
+    memcpy(input.origin, obj->origin, sizeof input.origin);
     input.colors = obj->colors;
     input.point_lines = obj->point_lines;
     input.point_line_bytes = obj->point_line_bytes;
@@ -131,8 +132,10 @@ measure_faces(const otx_cage *cage, osdtex_cage_info *info)
 
         for (int32_t k = 0; k < 3; ++k)
         {
-            info->lower[k] = fminf(info->lower[k], p[k]);
-            info->upper[k] = fmaxf(info->upper[k], p[k]);
+            info->lower[k] =
+                fmin(info->lower[k], cage->origin[k] + (double)p[k]);
+            info->upper[k] =
+                fmax(info->upper[k], cage->origin[k] + (double)p[k]);
         }
     }
 }

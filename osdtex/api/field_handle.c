@@ -65,6 +65,7 @@ static otx_status
 lend_singularities(otx_run *run, osdtex_field *h)
 {
     const float *points = h->surface->surface.points;
+    const double *origin = h->surface->surface.cage->origin;
     osdtex_singularity *lent;
     otx_singularity_list list;
 
@@ -76,9 +77,9 @@ lend_singularities(otx_run *run, osdtex_field *h)
     {
         lent[i].vertex = list.items[i].vertex;
         lent[i].index = (double)list.items[i].turns / h->direction.symmetry;
-        memcpy(
-            lent[i].point, points + 3 * (size_t)lent[i].vertex,
-            sizeof lent[i].point);
+        for (int k = 0; k < 3; ++k)
+            lent[i].point[k] =
+                origin[k] + (double)points[3 * (size_t)lent[i].vertex + k];
     }
     h->info.singularities = lent;
     h->info.singularity_count = list.count;

@@ -11,6 +11,7 @@ put_singularities(
     json_t *field, const otx_direction *d, const otx_singularity_list *list)
 {
     const float *points = d->connection->surface->points;
+    const double *origin = d->connection->surface->cage->origin;
     json_t *all = json_array();
 
     json_object_set_new(field, "singularities", all);
@@ -23,7 +24,7 @@ put_singularities(
             json_pack(
                 "{s:i, s:f, s:[f,f,f]}", "vertex", (int)list->items[i].vertex,
                 "index", (double)list->items[i].turns / d->symmetry, "place",
-                at.x, at.y, at.z));
+                origin[0] + at.x, origin[1] + at.y, origin[2] + at.z));
     }
 }
 

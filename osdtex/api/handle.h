@@ -79,6 +79,7 @@ struct osdtex_model
 {
     otx_arena *arena;
     otx_scene scene;
+    double origin[3]; /* what the scene's points are relative to */
     /* A field to show; NULL none. */
     const otx_surface *surface;
     const otx_guide *guide;

@@ -288,6 +288,7 @@ read_model(otx_call *call, const char *path, osdtex_model **out)
         .face_first = obj.face_first,
         .face_verts = obj.face_verts,
     };
+    memcpy(handle->origin, obj.origin, sizeof handle->origin);
     l.scene = &handle->scene;
     OTX_TRY(load(&l));
     OTX_TRY(otx_scene_smooth(run, &handle->scene));
@@ -328,6 +329,12 @@ texture_from(loader *l, const otx_exemplar *exemplar, otx_image *out)
         run, l->colour, exemplar->linear_space, l->linear, out);
 }
 
+static void
+set_origin(osdtex_model *model)
+{
+    memcpy(model->origin, model->surface->cage->origin, sizeof model->origin);
+}
+
 static otx_status
 create_model(otx_call *call, const osdtex_mapping *mapping, osdtex_model **out)
 {
@@ -353,6 +360,7 @@ create_model(otx_call *call, const osdtex_mapping *mapping, osdtex_model **out)
     OTX_TRY(otx_scene_from_mapping(
         run, &mapping->mapping, exemplars, &handle->scene));
     handle->surface = &mapping->surface->surface;
+    set_origin(handle);
     handle->guide = mapping->mapping.guide;
     handle->lattice = mapping->mapping.lattice;
     *out = handle;
@@ -388,6 +396,7 @@ create_from_field(otx_run *run, const osdtex_field *field, osdtex_model **out)
     handle->arena = run->arena;
     OTX_TRY(otx_call_hold(run, field->arena));
     handle->surface = &field->surface->surface;
+    set_origin(handle);
     handle->guide = &field->guide;
     handle->scene = (otx_scene){
         .vert_count = leaf->vert_count,
@@ -428,6 +437,13 @@ check_field(otx_run *run, const osdtex_model *model, const osdtex_field *field)
             run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
             "the field is of %d faces, but the model has %d",
             (int)leaf->face_count, (int)scene->face_count);
+    if (memcmp(
+            model->origin, field->surface->surface.cage->origin,
+            sizeof model->origin) != 0)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
+            "the field is of a surface that is kept relative to another "
+            "origin; make it on the model's own OBJ");
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (scene->face_first[f + 1] != leaf->face_first[f + 1])
             return otx_fail(

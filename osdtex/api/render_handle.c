@@ -35,9 +35,18 @@ no_such(otx_run *run, const char *what, const char *name, otx_near_name names)
         "there is no %s '%.60s'%s", what, name, near_names);
 }
 
+/* A place of the scene, as the model's points are kept. */
+static otx_vec3
+place_of(const osdtex_model *model, const double place[3])
+{
+    return (otx_vec3){
+        place[0] - model->origin[0], place[1] - model->origin[1],
+        place[2] - model->origin[2]};
+}
+
 static otx_status
 options_of(
-    otx_run *run, const otx_scene *scene, const osdtex_render_options *ours,
+    otx_run *run, const osdtex_model *model, const osdtex_render_options *ours,
     otx_camera *camera, otx_render_options *out)
 {
     const int32_t seam = ours->view ? otx_worst_seam_rank(ours->view) : 0;
@@ -56,15 +65,13 @@ options_of(
         return no_such(run, "view", ours->view, view_name);
     if (seam > 0 && ours->fov == 0.0)
     {
-        OTX_TRY(otx_worst_seam_camera(run, scene, seam, camera));
+        OTX_TRY(otx_worst_seam_camera(run, &model->scene, seam, camera));
         out->camera = camera;
     }
     if (ours->fov == 0.0)
         return OSDTEX_OK;
     *camera = (otx_camera){
-        {ours->eye[0], ours->eye[1], ours->eye[2]},
-        {ours->target[0], ours->target[1], ours->target[2]},
-        ours->fov,
+        place_of(model, ours->eye), place_of(model, ours->target), ours->fov,
         0.0};
     out->camera = camera;
     return OSDTEX_OK;
@@ -86,7 +93,7 @@ render(
             run, OSDTEX_ERROR_ARGUMENT, "render", OTX_NOWHERE,
             "no model is given");
     OTX_TRY(otx_call_options(run, &ours, sizeof ours, options));
-    OTX_TRY(options_of(run, &model->scene, &ours, &camera, &how));
+    OTX_TRY(options_of(run, model, &ours, &camera, &how));
     if (model->guide &&
         (how.show == OTX_SHOW_FIELD || how.show == OTX_SHOW_SINGULARITIES))
     {

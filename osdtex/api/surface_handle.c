@@ -57,6 +57,7 @@ static osdtex_surface_info
 info_of(const otx_surface *surface)
 {
     const otx_level *leaf = otx_surface_leaf(surface);
+    const double *origin = surface->cage->origin;
 
     return (osdtex_surface_info){
         .level = surface->level_count - 1,
@@ -75,6 +76,7 @@ info_of(const otx_surface *surface)
         .uv_count = surface->uv_count,
         .area = surface->area,
         .mean_edge_length = surface->mean_edge_length,
+        .origin = {origin[0], origin[1], origin[2]},
     };
 }
 

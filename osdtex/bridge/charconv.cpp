@@ -114,6 +114,17 @@ otx_charconv_print_double(char text[OTX_CHARCONV_BYTES], double value)
 }
 
 size_t
+otx_charconv_print_fixed(
+    char text[OTX_CHARCONV_BYTES], double value, int decimals)
+{
+    const auto r = std::to_chars(
+        text, text + OTX_CHARCONV_BYTES, value, std::chars_format::fixed,
+        decimals);
+
+    return r.ec == std::errc() ? size_t(r.ptr - text) : print(text, value);
+}
+
+size_t
 otx_charconv_print_int(char text[OTX_CHARCONV_BYTES], int64_t value)
 {
     return print(text, value);

@@ -44,6 +44,9 @@ extern "C"
     size_t otx_charconv_print_float(char text[OTX_CHARCONV_BYTES], float value);
     size_t
     otx_charconv_print_double(char text[OTX_CHARCONV_BYTES], double value);
+    /* With exactly that many decimals; the shortest where they do not fit. */
+    size_t otx_charconv_print_fixed(
+        char text[OTX_CHARCONV_BYTES], double value, int decimals);
     size_t otx_charconv_print_int(char text[OTX_CHARCONV_BYTES], int64_t value);
 
 #ifdef __cplusplus

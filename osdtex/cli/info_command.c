@@ -21,10 +21,9 @@ print_cage(const osdtex_cage_info *c)
         "  components  %d, %d boundary edges%s\n", c->component_count,
         c->boundary_edge_count, c->boundary_edge_count == 0 ? ": closed" : "");
     printf(
-        "  box         %g %g %g to %g %g %g, diagonal %g\n",
-        (double)c->lower[0], (double)c->lower[1], (double)c->lower[2],
-        (double)c->upper[0], (double)c->upper[1], (double)c->upper[2],
-        c->diagonal);
+        "  box         %.9g %.9g %.9g to %.9g %.9g %.9g, diagonal %g\n",
+        c->lower[0], c->lower[1], c->lower[2], c->upper[0], c->upper[1],
+        c->upper[2], c->diagonal);
     printf(
         "  edges       %g long in the mean; default scale %g\n",
         c->mean_edge_length, c->default_scale);

@@ -139,6 +139,7 @@ otx_cage_model_obj(
         .face_uvs = layout->face_uvs,
         .libraries = {1, libraries},
     };
+    memcpy(out->origin, cage->origin, sizeof out->origin);
     set_names(cage, out);
     set_tags(layout, out);
     OTX_TRY(list_holes(run, cage, out));
@@ -191,4 +192,5 @@ otx_cage_model_usda(const otx_layout *layout, const char *name, otx_usda *out)
         .face_hole = cage->face_hole,
         .groups = {cage->group_count, cage->group_names, cage->face_group},
     };
+    memcpy(out->origin, cage->origin, sizeof out->origin);
 }

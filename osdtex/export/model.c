@@ -253,6 +253,7 @@ set_points(const otx_surface *surface, otx_obj *out)
 {
     const otx_cage *cage = surface->cage;
 
+    memcpy(out->origin, cage->origin, sizeof out->origin);
     out->vert_count = otx_surface_leaf(surface)->vert_count;
     out->points = surface->points;
     if (cage->scheme != OTX_SCHEME_NONE)

@@ -92,6 +92,17 @@ otx_constraint_check_table(
         (int)set->count, (int)face_count);
 }
 
+/* Constraints are given in the scene, surfaces are kept relative to an
+ * origin. */
+static otx_vec3
+place_of(const otx_connection *c, const otx_constraint *item)
+{
+    const double *origin = c->surface->cage->origin;
+
+    return otx_vec3_sub(
+        item->point, (otx_vec3){origin[0], origin[1], origin[2]});
+}
+
 /* The face whose centre is nearest to a point. */
 static int32_t
 nearest_face(const otx_connection *c, otx_vec3 point)
@@ -129,7 +140,7 @@ take_hold(const otx_connection *c, const otx_constraint *item)
 
     if (item->face < 0)
         return (grip){
-            item, 0, c->level->face_count, nearest_face(c, item->point)};
+            item, 0, c->level->face_count, nearest_face(c, place_of(c, item))};
     /* Children are contiguous, and so are all descendants. */
     for (int32_t l = 0; l < c->level_index; ++l)
     {
@@ -146,8 +157,8 @@ holds(const otx_connection *c, const grip *g, int32_t face)
         return false;
     if (g->item->face >= 0 || face == g->nearest)
         return true;
-    return otx_vec3_length(otx_vec3_sub(c->centres[face], g->item->point)) <=
-           g->item->radius;
+    return otx_vec3_length(otx_vec3_sub(
+               c->centres[face], place_of(c, g->item))) <= g->item->radius;
 }
 
 static int32_t

@@ -8,6 +8,7 @@
 #include "bridge/charconv.h"
 #include "file/obj_index.h"
 #include "file/obj_names.h"
+#include "file/obj_origin.h"
 #include "file/obj_tags.h"
 
 #include <inttypes.h>
@@ -62,6 +63,7 @@ typedef struct reader
 
     /* What the second pass has so far. */
     int32_t vert_count, uv_count, face_count, corner_count;
+    double *places; /* of the points; a temporary */
     float *points, *colors, *uvs;
     char *point_lines;
     size_t point_line_used;
@@ -78,7 +80,7 @@ typedef struct reader
  * are more. */
 static otx_status
 read_numbers(
-    reader *r, const char *what, int32_t limit, float *numbers, int32_t *count)
+    reader *r, const char *what, int32_t limit, double *numbers, int32_t *count)
 {
     otx_token token;
 
@@ -89,7 +91,7 @@ read_numbers(
             ++*count;
             break;
         }
-        OTX_TRY(otx_text_parse_float(&r->text, token, what, &numbers[*count]));
+        OTX_TRY(otx_text_parse_double(&r->text, token, what, &numbers[*count]));
     }
     return OSDTEX_OK;
 }
@@ -97,7 +99,7 @@ read_numbers(
 /* The color of the vertex that is read. The array is made when the first
  * color turns up; white is what the vertices without one get. */
 static otx_status
-read_color(reader *r, const float color[3])
+read_color(reader *r, const double color[3])
 {
     const size_t count = (size_t)r->lines[ELEMENT_POINT] * 3;
 
@@ -110,7 +112,7 @@ read_color(reader *r, const float color[3])
             r->colors[i] = 1.0f;
     }
     for (size_t i = 0; i < 3; ++i)
-        r->colors[3 * (size_t)r->vert_count + i] = color[i];
+        r->colors[3 * (size_t)r->vert_count + i] = (float)color[i];
     return OSDTEX_OK;
 }
 
@@ -140,7 +142,7 @@ keep_point_line(reader *r)
 static otx_status
 read_point(reader *r, element kind)
 {
-    float n[MAX_NUMBERS];
+    double n[MAX_NUMBERS];
     int32_t count;
 
     (void)kind;
@@ -152,7 +154,7 @@ read_point(reader *r, element kind)
             "a vertex has 3, 4, 6 or 7 numbers, not %s%" PRId32,
             count > MAX_NUMBERS ? "more than " : "",
             count > MAX_NUMBERS ? MAX_NUMBERS : count);
-    if (count == 4 && n[3] != 1.0f)
+    if (count == 4 && n[3] != 1.0)
         otx_note(
             r->run, OSDTEX_SEVERITY_WARNING, STAGE, otx_text_where(&r->text),
             "a fourth number of a vertex is a weight, which is for curves, "
@@ -160,7 +162,7 @@ read_point(reader *r, element kind)
     if (count >= 6)
         OTX_TRY(read_color(r, n + 3));
     for (size_t i = 0; i < 3; ++i)
-        r->points[3 * (size_t)r->vert_count + i] = n[i];
+        r->places[3 * (size_t)r->vert_count + i] = n[i];
     ++r->vert_count;
     return OSDTEX_OK;
 }
@@ -169,7 +171,7 @@ read_point(reader *r, element kind)
 static otx_status
 read_uv(reader *r, element kind)
 {
-    float n[3] = {0};
+    double n[3] = {0};
     int32_t count;
 
     (void)kind;
@@ -179,8 +181,8 @@ read_uv(reader *r, element kind)
             r->run, OSDTEX_ERROR_FORMAT, STAGE, otx_text_where(&r->text),
             "a texture vertex has 1, 2 or 3 numbers, not %s",
             count < 1 ? "none" : "more");
-    r->uvs[2 * (size_t)r->uv_count] = n[0];
-    r->uvs[2 * (size_t)r->uv_count + 1] = n[1];
+    r->uvs[2 * (size_t)r->uv_count] = (float)n[0];
+    r->uvs[2 * (size_t)r->uv_count + 1] = (float)n[1];
     ++r->uv_count;
     return OSDTEX_OK;
 }
@@ -467,6 +469,7 @@ create_arrays(reader *r)
     otx_arena *arena = r->run->arena;
     const int64_t faces = r->lines[ELEMENT_FACE];
 
+    r->places = OTX_NEW(r->run->scratch, double, 3 * r->lines[ELEMENT_POINT]);
     r->points = OTX_NEW(arena, float, 3 * r->lines[ELEMENT_POINT]);
     r->uvs = OTX_NEW(arena, float, 2 * r->lines[ELEMENT_UV]);
     r->face_first = OTX_ZNEW(arena, int32_t, faces + 1);
@@ -474,8 +477,8 @@ create_arrays(reader *r)
     r->face_uvs = OTX_NEW(arena, int32_t, r->corners);
     r->face_line = OTX_NEW(arena, int64_t, faces);
     r->point_lines = OTX_NEW(arena, char, r->point_line_bytes);
-    if (!r->points || !r->point_lines || !r->uvs || !r->face_first ||
-        !r->face_verts || !r->face_uvs || !r->face_line)
+    if (!r->places || !r->points || !r->point_lines || !r->uvs ||
+        !r->face_first || !r->face_verts || !r->face_uvs || !r->face_line)
         return otx_fail_memory(r->run, STAGE);
     for (int i = 0; i < ATTRIBUTE_COUNT; ++i)
     {
@@ -540,6 +543,15 @@ check_face(const reader *r, int32_t face)
     return OSDTEX_OK;
 }
 
+static void
+take_origin(const reader *r, otx_obj *obj)
+{
+    const otx_obj_places places = {r->text.name,  r->places,     r->vert_count,
+                                   r->face_count, r->face_first, r->face_verts};
+
+    otx_obj_origin_take(r->run, &places, r->points, obj->origin);
+}
+
 static otx_status
 finish(const reader *r, otx_obj *out)
 {
@@ -572,6 +584,7 @@ finish(const reader *r, otx_obj *out)
         return otx_fail_memory(r->run, STAGE);
     for (int32_t face = 0; face < r->face_count; ++face)
         OTX_TRY(check_face(r, face));
+    take_origin(r, &obj);
     OTX_TRY(otx_obj_tags_finish(&r->tags, &r->text, &obj));
     *out = obj;
     return OSDTEX_OK;

@@ -54,7 +54,8 @@ typedef struct otx_obj
     const char *path; /* as given; for messages */
 
     int32_t vert_count, uv_count, face_count, corner_count;
-    const float *points; /* [vert_count * 3], finite */
+    const float *points; /* [vert_count * 3], finite, relative to `origin` */
+    double origin[3]; /* see file/obj_origin.h; zero unless all is far away */
     const float *colors; /* [vert_count * 3] as written, white where a vertex
                           * has none; NULL when none has */
     /* The `v` lines as the file has them, in order, each with an LF: what the

@@ -73,7 +73,11 @@ write_vertices(otx_text_out *out, const otx_obj *obj)
     for (size_t i = 0; !obj->point_lines && i < (size_t)obj->vert_count; ++i)
     {
         otx_text_out_char(out, 'v');
-        write_floats(out, obj->points + 3 * i, 3);
+        for (size_t k = 0; k < 3; ++k)
+        {
+            otx_text_out_char(out, ' ');
+            otx_text_out_placed(out, obj->points[3 * i + k], obj->origin[k]);
+        }
         if (obj->colors)
             write_floats(out, obj->colors + 3 * i, 3);
         otx_text_out_char(out, '\n');

@@ -10,6 +10,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <float.h>
 #include <math.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -335,19 +336,21 @@ fail_number(
         "%s '%s' is not a number", what, quote.text);
 }
 
-otx_status
-otx_text_parse_float(
-    const otx_text *text, otx_token token, const char *what, float *value)
+/* Whether what was read of a token is a number that can be used.
+ *
+ *   value  in the type's range only when `result` is OK */
+static otx_status
+check_number(
+    const otx_text *text, otx_token token, const char *what,
+    otx_charconv_result result, const char *rest, double value)
 {
-    const char *rest = token.begin;
-    otx_charconv_result result =
-        otx_charconv_read_float(token.begin, token.end, value, &rest);
-
     if (result == OTX_CHARCONV_MALFORMED || rest != token.end)
         return fail_number(text, token, what, OTX_CHARCONV_MALFORMED);
+    if (result == OTX_CHARCONV_OK && isfinite(value) && fabs(value) > FLT_MAX)
+        result = OTX_CHARCONV_OVERFLOW;
     if (result != OTX_CHARCONV_OK)
         return fail_number(text, token, what, result);
-    if (isfinite(*value))
+    if (isfinite(value))
         return OSDTEX_OK;
 
     const otx_text_quote quote = otx_token_quote(token);
@@ -355,6 +358,28 @@ otx_text_parse_float(
     return otx_fail(
         text->run, OSDTEX_ERROR_FORMAT, text->stage, otx_text_where(text),
         "%s '%s' is not a finite number", what, quote.text);
+}
+
+otx_status
+otx_text_parse_float(
+    const otx_text *text, otx_token token, const char *what, float *value)
+{
+    const char *rest = token.begin;
+    const otx_charconv_result result =
+        otx_charconv_read_float(token.begin, token.end, value, &rest);
+
+    return check_number(text, token, what, result, rest, (double)*value);
+}
+
+otx_status
+otx_text_parse_double(
+    const otx_text *text, otx_token token, const char *what, double *value)
+{
+    const char *rest = token.begin;
+    const otx_charconv_result result =
+        otx_charconv_read_double(token.begin, token.end, value, &rest);
+
+    return check_number(text, token, what, result, rest, *value);
 }
 
 otx_status

@@ -75,6 +75,9 @@ otx_token otx_text_remainder(otx_text *text);
 otx_status otx_text_float(otx_text *text, const char *what, float *value);
 otx_status otx_text_parse_float(
     const otx_text *text, otx_token token, const char *what, float *value);
+/* Of those that a float can have, but with a double's digits. */
+otx_status otx_text_parse_double(
+    const otx_text *text, otx_token token, const char *what, double *value);
 otx_status otx_text_parse_int(
     const otx_text *text, otx_token token, const char *what, int64_t *value);
 

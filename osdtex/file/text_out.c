@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -148,6 +149,46 @@ otx_text_out_float(otx_text_out *out, float value)
 {
     out->used +=
         otx_charconv_print_float(reserve(out, OTX_CHARCONV_BYTES), value);
+}
+
+void
+otx_text_out_double(otx_text_out *out, double value)
+{
+    out->used +=
+        otx_charconv_print_double(reserve(out, OTX_CHARCONV_BYTES), value);
+}
+
+/* Bytes of `place` with the fewest decimals that read back as `value` beyond
+ * the origin. A double may not have digits enough for that where the value is
+ * much smaller than the origin; then all that it has are printed. */
+static size_t
+print_placed(
+    char text[OTX_CHARCONV_BYTES], double place, double origin, float value)
+{
+    const int most = 15 - (int)fmax(0.0, floor(log10(fabs(place))));
+
+    for (int decimals = 0; decimals <= most; ++decimals)
+    {
+        const size_t size = otx_charconv_print_fixed(text, place, decimals);
+        const char *rest;
+        double back = 0.0;
+
+        otx_charconv_read_double(text, text + size, &back, &rest);
+        if ((float)(back - origin) == value)
+            return size;
+    }
+    return otx_charconv_print_double(text, place);
+}
+
+void
+otx_text_out_placed(otx_text_out *out, float value, double origin)
+{
+    if (origin == 0.0)
+        otx_text_out_float(out, value);
+    else
+        out->used += print_placed(
+            reserve(out, OTX_CHARCONV_BYTES), origin + (double)value, origin,
+            value);
 }
 
 void

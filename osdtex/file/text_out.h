@@ -24,6 +24,11 @@ void otx_text_out_char(otx_text_out *out, char c);
 void otx_text_out_int(otx_text_out *out, int64_t value);
 /* The shortest decimal that reads back as the same float. */
 void otx_text_out_float(otx_text_out *out, float value);
+void otx_text_out_double(otx_text_out *out, double value);
+/* The decimal with the fewest places that, less `origin`, is `value`: a number
+ * that is kept relative to an origin, put back. With an origin of zero the
+ * shortest of the float. */
+void otx_text_out_placed(otx_text_out *out, float value, double origin);
 /* A name as it can stand in a line: control characters become `_`, and so do
  * blanks unless they may stay. */
 void otx_text_out_name(otx_text_out *out, const char *name, bool blanks);

@@ -146,6 +146,23 @@ write_extent(otx_text_out *out, const otx_usda *u)
     otx_text_out_char(out, '\n');
 }
 
+/* Points are floats in USD, a translation may be double. */
+static void
+write_origin(otx_text_out *out, const otx_usda *u)
+{
+    if (u->origin[0] == 0.0 && u->origin[1] == 0.0 && u->origin[2] == 0.0)
+        return;
+    otx_text_out_string(out, "        double3 xformOp:translate = (");
+    for (int k = 0; k < 3; ++k)
+    {
+        otx_text_out_string(out, k == 0 ? "" : ", ");
+        otx_text_out_double(out, u->origin[k]);
+    }
+    otx_text_out_string(
+        out, ")\n        uniform token[] xformOpOrder = "
+             "[\"xformOp:translate\"]\n");
+}
+
 /* One crease of two vertices for each edge: chains would have to share a
  * sharpness. */
 static bool
@@ -270,6 +287,7 @@ write_mesh(otx_run *run, otx_text_out *out, const otx_usda *u, const char *name)
     write_tuples(out, "point3f[] points", u->points, u->vert_count, 3);
     otx_text_out_char(out, '\n');
     write_extent(out, u);
+    write_origin(out, u);
     if (!write_sharp(run, out, u) || !write_holes(run, out, u))
         return false;
     write_uvs(out, u);

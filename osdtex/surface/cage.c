@@ -131,11 +131,10 @@ copy_colors(otx_run *run, const otx_cage_input *in, otx_cage *cage)
     return cage->colors ? OSDTEX_OK : otx_fail_memory(run, STAGE);
 }
 
-/* Only the points of a plain mesh come out as they are. */
 static otx_status
 copy_point_lines(otx_run *run, const otx_cage_input *in, otx_cage *cage)
 {
-    if (!in->point_lines || cage->scheme != OTX_SCHEME_NONE)
+    if (!in->point_lines)
         return OSDTEX_OK;
     cage->point_line_bytes = in->point_line_bytes;
     cage->point_lines =
@@ -151,6 +150,7 @@ copy_mesh(otx_run *run, const otx_cage_input *in, bool uvs, otx_cage *cage)
     otx_arena *arena = run->arena;
 
     cage->vert_count = in->vert_count;
+    memcpy(cage->origin, in->origin, sizeof cage->origin);
     cage->face_count = in->face_count;
     cage->corner_count = (int32_t)corners;
     cage->points =

@@ -48,8 +48,10 @@ typedef struct otx_cage
 
     int32_t vert_count, face_count, corner_count;
     const float *points;     /* [vert_count * 3], scene units */
+    double origin[3];        /* what points are relative to; as a rule zero */
     const float *colors;     /* [vert_count * 3] or NULL */
-    const char *point_lines; /* of a plain mesh: see otx_obj; NULL none */
+    const char *point_lines; /* the file's text of them: see otx_obj; NULL
+                              * none */
     size_t point_line_bytes;
     const int32_t *face_first; /* [face_count + 1], offsets into corners */
     const int32_t *face_verts; /* [corner_count] */
@@ -105,6 +107,7 @@ typedef struct otx_cage_input
 
     int32_t vert_count, face_count, uv_count;
     const float *points;     /* [vert_count * 3] */
+    double origin[3];        /* scene units; added to the points */
     const float *colors;     /* [vert_count * 3] or NULL */
     const char *point_lines; /* the file's text of the points; NULL none */
     size_t point_line_bytes;
