@@ -45,7 +45,8 @@ enum
     OSDTEX_ERROR_MEMORY = -7,    /* an allocation failed */
     OSDTEX_ERROR_CANCELLED = -8, /* the progress callback said stop */
     OSDTEX_ERROR_SUPPORT = -9,   /* valid, and not supported */
-    OSDTEX_ERROR_COLOUR = -10    /* the colour configuration's */
+    OSDTEX_ERROR_COLOUR = -10,   /* the colour configuration's */
+    OSDTEX_ERROR_INTERNAL = -11  /* ours: a check of osdtex's own failed */
 };
 
 /* "OK", "ARGUMENT", …; "UNKNOWN" for a code that is none of ours. */

@@ -97,7 +97,8 @@ typedef struct osdtex_mapping_info
 
 /* ARGUMENT (with near names), LIMIT, NUMERIC, MEMORY, CANCELLED; of several
  * exemplars also FORMAT and IO (of a mask) and SUPPORT (a method that takes
- * one). */
+ * one). INTERNAL when what the method returned is no mapping: there is none
+ * then, and the fault is the library's. */
 OSDTEX_API osdtex_status osdtex_map(
     osdtex_context *context, const osdtex_surface *surface,
     const osdtex_exemplar *exemplar, const osdtex_map_options *options,

@@ -23,8 +23,8 @@ const char *
 osdtex_status_name(osdtex_status status)
 {
     static const char *const names[] = {
-        "OK", "ARGUMENT", "FORMAT",    "TOPOLOGY", "LIMIT", "NUMERIC",
-        "IO", "MEMORY",   "CANCELLED", "SUPPORT",  "COLOUR"};
+        "OK", "ARGUMENT", "FORMAT",    "TOPOLOGY", "LIMIT",  "NUMERIC",
+        "IO", "MEMORY",   "CANCELLED", "SUPPORT",  "COLOUR", "INTERNAL"};
     const int32_t count = (int32_t)(sizeof names / sizeof names[0]);
 
     return status <= 0 && status > -count ? names[-status] : "UNKNOWN";

@@ -1,6 +1,7 @@
 /* method.c -- the table of methods and the driver. */
 #include "method/method.h"
 
+#include "mapping/mapping_check.h"
 #include "mapping/seam.h"
 
 #include <string.h>
@@ -124,6 +125,7 @@ otx_method_map(
     const otx_arena_mark mark = otx_arena_here(run->scratch);
 
     *stats = (otx_map_stats){0};
+    *out = (otx_mapping){0};
     OTX_TRY(check(run, surface, request));
     if (request->demand && !method->mixes)
         return otx_fail(
@@ -141,7 +143,9 @@ otx_method_map(
     OTX_TRY(method->map(run, surface, exemplar, request, settings, out, stats));
     otx_map_stats_stage(stats, NULL);
     otx_arena_release(run->scratch, mark);
-    return OSDTEX_OK;
+    return otx_mapping_check(
+        run, out, surface, exemplar,
+        request->demand ? request->exemplar_count : 1, method->name);
 }
 
 otx_status

@@ -110,7 +110,8 @@ names_and_versions(void **state)
     assert_string_equal(osdtex_status_name(OSDTEX_OK), "OK");
     assert_string_equal(osdtex_status_name(OSDTEX_ERROR_COLOUR), "COLOUR");
     assert_string_equal(osdtex_status_name(1), "UNKNOWN");
-    assert_string_equal(osdtex_status_name(-11), "UNKNOWN");
+    assert_string_equal(osdtex_status_name(OSDTEX_ERROR_INTERNAL), "INTERNAL");
+    assert_string_equal(osdtex_status_name(-12), "UNKNOWN");
     osdtex_hash("", 0, hash);
     assert_int_equal(strlen(hash), OSDTEX_HASH_BYTES - 1);
 }
