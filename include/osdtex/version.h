@@ -13,6 +13,12 @@ OSDTEX_BEGIN_DECLS
 /* "0.1.0", of the library that is running. */
 OSDTEX_API const char *osdtex_version(void);
 
+/* Which build the library that is running is: "v1.2-3-g4df2b75+3f9a1c22d0e1",
+ * what `git describe` said of the tree (of a release, the version) and a hash
+ * of what was compiled and how. Two builds that may give other results have
+ * other texts. */
+OSDTEX_API const char *osdtex_build(void);
+
 OSDTEX_END_DECLS
 
 #endif

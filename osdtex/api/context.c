@@ -1,5 +1,6 @@
 /* context.c -- the context, its findings, and what needs no context. */
 #include "api/call.h"
+#include "base/build.h"
 #include "base/hash.h"
 
 #include <stdlib.h>
@@ -17,6 +18,12 @@ osdtex_version(void)
 {
     return TEXT(OSDTEX_VERSION_MAJOR) "." TEXT(OSDTEX_VERSION_MINOR) "." TEXT(
         OSDTEX_VERSION_PATCH);
+}
+
+const char *
+osdtex_build(void)
+{
+    return otx_build();
 }
 
 const char *

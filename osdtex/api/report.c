@@ -435,6 +435,7 @@ write_report(otx_call *call, const osdtex_mapping *mapping, const char *path)
         return otx_fail_memory(run, "report");
     }
     set_text(root, "version", osdtex_version());
+    set_text(root, "build", osdtex_build());
     put_inputs(root, mapping);
     put_options(root, context, mapping);
     put_colour(root, context, mapping);

@@ -5,6 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
+static void
+print_version(void)
+{
+    printf("osdtex %s (build %s)\n", osdtex_version(), osdtex_build());
+}
+
 static int
 run(const otx_command *command, int argc, char **argv)
 {
@@ -19,7 +25,7 @@ run(const otx_command *command, int argc, char **argv)
     }
     if (values.text[OTX_FLAG_VERSION])
     {
-        printf("osdtex %s\n", osdtex_version());
+        print_version();
         return OTX_EXIT_OK;
     }
     if (values.operand_count < command->operands_min ||
@@ -58,7 +64,7 @@ main(int argc, char **argv)
     }
     if (strcmp(argv[1], "--version") == 0)
     {
-        printf("osdtex %s\n", osdtex_version());
+        print_version();
         return flush(OTX_EXIT_OK);
     }
     command = otx_command_find(argv[1]);

@@ -129,7 +129,7 @@ put_job(FILE *out, const otx_flag_values *values)
 {
     const char *config = values->text[OTX_FLAG_COLORCONFIG];
 
-    fprintf(out, "osdtex %s\n", osdtex_version());
+    fprintf(out, "osdtex %s\n", osdtex_build());
     if (!put_file(out, values->operands[0]) ||
         !put_file(out, values->operands[1]))
         return false;

@@ -6,6 +6,7 @@
  * that no reader accepts. */
 #include "file/exr.h"
 
+#include "base/build.h"
 #include "image/pyramid.h"
 
 #include <errno.h>
@@ -190,11 +191,12 @@ write_attribute(otx_exr_writer *w, const otx_exr_attribute *a)
 static otx_status
 write_attributes(otx_exr_writer *w, const otx_exr_options *options)
 {
-    char software[64];
+    char software[256];
 
     snprintf(
-        software, sizeof software, "osdtex %d.%d.%d", OSDTEX_VERSION_MAJOR,
-        OSDTEX_VERSION_MINOR, OSDTEX_VERSION_PATCH);
+        software, sizeof software, "osdtex %d.%d.%d (build %s)",
+        OSDTEX_VERSION_MAJOR, OSDTEX_VERSION_MINOR, OSDTEX_VERSION_PATCH,
+        otx_build());
     OTX_TRY(check(w, write_text(w, "Software", software)));
     OTX_TRY(check(w, write_color(w, options)));
     if (w->tiled)

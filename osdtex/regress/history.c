@@ -9,10 +9,10 @@ static json_t *
 line_of(const json_t *run)
 {
     json_t *line = json_object(), *cases = json_object(), *result;
-    static const char *const kept[] = {"time", "version", "machine"};
+    static const char *const kept[] = {"time", "version", "build", "machine"};
     const char *name;
 
-    for (int i = 0; i < 3; ++i)
+    for (size_t i = 0; i < sizeof kept / sizeof kept[0]; ++i)
         json_object_set(line, kept[i], json_object_get(run, kept[i]));
     json_object_foreach(json_object_get(run, "cases"), name, result)
     {

@@ -373,7 +373,7 @@ put_head(FILE *out, const json_t *run)
             count_of(cases, statuses[i]), statuses[i], statuses[i]);
     fputs("</h1>\n<p class=\"about\">", out);
     otx_html_put_text(out, text_of(run, "suite"));
-    fprintf(out, " &middot; osdtex %s &middot; ", text_of(run, "version"));
+    fprintf(out, " &middot; osdtex %s &middot; ", text_of(run, "build"));
     otx_html_put_text(out, text_of(run, "machine"));
     fprintf(out, " &middot; %s</p>\n<nav>", text_of(run, "time"));
     for (int i = 0; i < STATUS_COUNT - 1; ++i)

@@ -37,7 +37,7 @@ class Help(ProgramTest):
         for arguments in (["--version"], ["map", "--version"]):
             result = self.run_program(*arguments)
             self.assert_exit(result, 0)
-            self.assertRegex(result.stdout, r"^osdtex \d+\.\d+\.\d+\n$")
+            self.assertRegex(result.stdout, r"^osdtex \d+\.\d+\.\d+ \(build [\w.-]+\+[0-9a-f]{12}\)\n$")
 
     def test_man_page_has_every_flag(self):
         page = self.run_program("help", "--man").stdout.replace("\\-", "-")
