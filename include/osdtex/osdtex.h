@@ -15,7 +15,7 @@
  *
  * and beside it memory, threads and findings (context.h), directions that a
  * texture follows (field.h), the methods and their settings (method.h), tiled
- * textures (tiles.h) and pixels (image.h).
+ * textures (tiles.h), pixels (image.h) and what files depend on (files.h).
  *
  * Every call that can fail returns an osdtex_status; on failure *out is NULL,
  * the inputs are untouched, and the context holds diagnostics addressed to the
@@ -47,6 +47,7 @@
 #include <osdtex/context.h>
 #include <osdtex/exemplar.h>
 #include <osdtex/field.h>
+#include <osdtex/files.h>
 #include <osdtex/image.h>
 #include <osdtex/mapping.h>
 #include <osdtex/method.h>

@@ -16,6 +16,7 @@
 #include <fstream>
 #include <mutex>
 #include <new>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -244,6 +245,113 @@ find(const OCIO::Config &config, const char *name)
     return space ? space->getName() : nullptr;
 }
 
+using visitor = void (*)(void *user, otx_ocio_need need, const char *text);
+
+/* Names of the tables in a transform and those it is made of. */
+void
+collect_tables(
+    const OCIO::ConstTransformRcPtr &transform, std::set<std::string> &tables)
+{
+    if (const auto file =
+            OCIO_DYNAMIC_POINTER_CAST<const OCIO::FileTransform>(transform))
+        tables.insert(file->getSrc());
+    if (const auto group =
+            OCIO_DYNAMIC_POINTER_CAST<const OCIO::GroupTransform>(transform))
+        for (int i = 0; i < group->getNumTransforms(); ++i)
+            collect_tables(group->getTransform(i), tables);
+}
+
+std::set<std::string>
+tables_of(const OCIO::Config &config)
+{
+    std::set<std::string> tables;
+
+    for (int i = 0; i < space_count(config); ++i)
+        if (const auto s = config.getColorSpace(space_name(config, i)))
+            for (const auto direction :
+                 {OCIO::COLORSPACE_DIR_TO_REFERENCE,
+                  OCIO::COLORSPACE_DIR_FROM_REFERENCE})
+                collect_tables(s->getTransform(direction), tables);
+    for (int i = 0; i < config.getNumLooks(); ++i)
+        if (const auto l = config.getLook(config.getLookNameByIndex(i)))
+        {
+            collect_tables(l->getTransform(), tables);
+            collect_tables(l->getInverseTransform(), tables);
+        }
+    for (int i = 0; i < config.getNumViewTransforms(); ++i)
+        if (const auto v =
+                config.getViewTransform(config.getViewTransformNameByIndex(i)))
+            for (const auto direction :
+                 {OCIO::VIEWTRANSFORM_DIR_TO_REFERENCE,
+                  OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE})
+                collect_tables(v->getTransform(direction), tables);
+    for (int i = 0; i < config.getNumNamedTransforms(OCIO::NAMEDTRANSFORM_ALL);
+         ++i)
+        if (const auto n =
+                config.getNamedTransform(config.getNamedTransformNameByIndex(
+                    OCIO::NAMEDTRANSFORM_ALL, i)))
+            for (const auto direction :
+                 {OCIO::TRANSFORM_DIR_FORWARD, OCIO::TRANSFORM_DIR_INVERSE})
+                collect_tables(n->getTransform(direction), tables);
+    return tables;
+}
+
+/* Variables that stand in a text as $NAME, ${NAME} or %NAME%. */
+std::set<std::string>
+variables_in(const std::string &text)
+{
+    const auto is_letter = [](char c)
+    { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    std::set<std::string> names;
+
+    for (size_t i = 0; i + 1 < text.size(); ++i)
+    {
+        if (text[i] != '$' && text[i] != '%')
+            continue;
+        const size_t begin = i + 1 + (text[i] == '$' && text[i + 1] == '{');
+        size_t end = begin;
+
+        while (end < text.size() && is_letter(text[end]))
+            ++end;
+        if (end > begin &&
+            (text[i] == '$' || (end < text.size() && text[end] == '%')))
+            names.insert(text.substr(begin, end - begin));
+    }
+    return names;
+}
+
+/* "" where it is not found. */
+std::string
+place_of(const OCIO::ConstContextRcPtr &context, const std::string &table)
+{
+    return answered<std::string>(
+        "", [&] { return context->resolveFileLocation(table.c_str()); });
+}
+
+void
+visit_needs(const OCIO::Config &config, visitor visit, void *user)
+{
+    const auto context = config.getCurrentContext();
+    std::ostringstream text;
+
+    config.serialize(text);
+    visit(user, OTX_OCIO_NEED_TEXT, OCIO::GetVersion());
+    visit(user, OTX_OCIO_NEED_TEXT, text.str().c_str());
+    for (const std::string &name : variables_in(text.str()))
+    {
+        const std::string value =
+            context->resolveStringVar(("${" + name + "}").c_str());
+        visit(user, OTX_OCIO_NEED_VARIABLE, (name + "=" + value).c_str());
+    }
+    for (const std::string &table : tables_of(config))
+    {
+        const std::string place = place_of(context, table);
+        visit(user, OTX_OCIO_NEED_NAME, table.c_str());
+        if (!place.empty())
+            visit(user, OTX_OCIO_NEED_FILE, place.c_str());
+    }
+}
+
 } // namespace
 
 otx_status
@@ -297,6 +405,19 @@ otx_ocio_validate(const otx_ocio *ocio, char *message)
     if (std::strcmp(message, "Config failed sanitycheck") == 0)
         say(message, "a look-up table that it names is not found");
     return status;
+}
+
+otx_status
+otx_ocio_visit_needs(
+    const otx_ocio *ocio, visitor visit, void *user, char *message)
+{
+    return guarded(
+        message,
+        [&]
+        {
+            const quiet hush;
+            visit_needs(*ocio->config, visit, user);
+        });
 }
 
 int32_t

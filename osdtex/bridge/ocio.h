@@ -70,6 +70,23 @@ extern "C"
     const char *otx_ocio_file_rule(
         const otx_ocio *ocio, const char *path, const char **rule);
 
+    /* What the conversions of a configuration depend on besides its file. */
+    typedef enum otx_ocio_need
+    {
+        OTX_OCIO_NEED_TEXT,     /* the configuration itself, and by whom read */
+        OTX_OCIO_NEED_VARIABLE, /* NAME=value of the context */
+        OTX_OCIO_NEED_NAME,     /* a look-up table as the configuration names it
+                                 */
+        OTX_OCIO_NEED_FILE      /* where that table is, when it is found */
+    } otx_ocio_need;
+
+    /* Calls `visit` for everything that a configuration depends on, in an order
+     * of its own that is always the same. Text lives until `visit` returns. */
+    otx_status otx_ocio_visit_needs(
+        const otx_ocio *ocio,
+        void (*visit)(void *user, otx_ocio_need need, const char *text),
+        void *user, char *message);
+
     /* A conversion between two spaces of a configuration, on the CPU. */
     typedef struct otx_ocio_conversion otx_ocio_conversion;
 

@@ -3,10 +3,11 @@
 
 #include "cli/up_to_date.h"
 
+#include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <strings.h>
 #include <unistd.h>
 
 enum
@@ -124,61 +125,110 @@ otx_bake_outputs_are_done(
                           : named_tiles_are_done(cage, options, hash));
 }
 
-/* -- inputs that look like outputs ---------------------------------------- */
+/* ---- names ----------------------------------------------------------------
+ */
 
-/* Whether two paths are of one folder. */
-static bool
-share_folder(const char *a, const char *b)
-{
-    const char *const paths[2] = {a, b};
-    struct stat found[2];
-
-    for (int k = 0; k < 2; ++k)
-    {
-        const char *slash = strrchr(paths[k], '/');
-        char *folder = slash ? strndup(paths[k], (size_t)(slash - paths[k]) + 1)
-                             : strdup(".");
-        const bool fine = folder && stat(folder, &found[k]) == 0;
-
-        free(folder);
-        if (!fine)
-            return false;
-    }
-    return found[0].st_dev == found[1].st_dev &&
-           found[0].st_ino == found[1].st_ino;
-}
-
-/* ".1001.exr" or ".<UDIM>.exr", or the like of a PNG. */
+/* ".1001.exr", or the like of a PNG. */
 static bool
 is_tile(const char *text)
 {
     const size_t number = *text == '.' ? strspn(text + 1, "0123456789") : 0;
-    const char *end = text + 1 + number;
 
-    if (*text == '.' && text[1] == '<')
-        end = strchr(text, '>') ? strchr(text, '>') + 1 : "";
-    else if (number != 4)
+    if (number < 4)
         return false;
-    return strcmp(end, ".exr") == 0 || strcmp(end, ".png") == 0;
+    text += 1 + number;
+    return strcasecmp(text, ".exr") == 0 || strcasecmp(text, ".png") == 0;
+}
+
+static const char *
+base_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+
+    return slash ? slash + 1 : path;
+}
+
+/* Whether a file beside the cage is called as a texture of a bake is, be it
+ * asked for this time or not. */
+static bool
+is_texture(const char *cage, const char *file)
+{
+    const size_t size = strlen(base_of(cage)) - strlen("_cage.obj");
+
+    if (strncasecmp(file, base_of(cage), size) != 0)
+        return false;
+    for (int kind = 0; kind < KIND_COUNT; ++kind)
+    {
+        const size_t length = strlen(KINDS[kind]);
+
+        if (strncasecmp(file + size, KINDS[kind], length) == 0 &&
+            is_tile(file + size + length))
+            return true;
+    }
+    return false;
+}
+
+static void
+add(otx_path_list *list, const char *cage, const char *suffix)
+{
+    char *path = beside(cage, suffix);
+
+    list->out_of_memory |= !path;
+    otx_path_list_add(list, path);
+    free(path);
+}
+
+/* Which tiles there will be is not known yet; what matters is which are there.
+ */
+static void
+add_textures(otx_path_list *list, const char *cage)
+{
+    char *folder = strndup(cage, (size_t)(base_of(cage) - cage));
+    const size_t base = strlen(base_of(cage)) - strlen("_cage.obj");
+    struct dirent **entries = NULL;
+    const int count =
+        folder ? scandir(*folder ? folder : ".", &entries, NULL, alphasort)
+               : -1;
+
+    list->out_of_memory |= !folder;
+    for (int i = 0; i < count; ++i)
+    {
+        if (is_texture(cage, entries[i]->d_name))
+            add(list, cage, entries[i]->d_name + base);
+        free(entries[i]);
+    }
+    if (count >= 0)
+        free(entries);
+    free(folder);
+}
+
+void
+otx_bake_outputs_list(
+    const char *cage, const osdtex_bake_options *options, otx_path_list *out)
+{
+    add(out, cage, "_cage.obj");
+    add(out, cage, "_cage.mtl");
+    add(out, cage, ".usda");
+    add(out, cage, ".mtlx");
+    if (options->preview_png)
+        add(out, cage, "_preview.mtl");
+    add_textures(out, cage);
 }
 
 bool
-otx_bake_outputs_may_replace(const char *cage, const char *path)
+otx_bake_outputs_may_be(const char *cage, const char *path)
 {
-    const char *slash = strrchr(cage, '/');
-    const char *name = slash ? slash + 1 : cage;
-    const size_t size = strlen(name) - strlen("_cage.obj");
-    const char *file;
+    otx_path_list pair = {0};
+    bool same;
 
-    if (!path || !share_folder(cage, path))
+    if (!path || !is_texture(cage, base_of(path)))
         return false;
-    slash = strrchr(path, '/');
-    file = slash ? slash + 1 : path;
-    if (strncmp(file, name, size) != 0)
-        return false;
-    for (int kind = 0; kind < KIND_COUNT; ++kind)
-        if (strncmp(file + size, KINDS[kind], strlen(KINDS[kind])) == 0 &&
-            is_tile(file + size + strlen(KINDS[kind])))
-            return true;
-    return false;
+    otx_path_list_add(&pair, cage);
+    otx_path_list_add(&pair, path);
+    same = pair.count == 2 && pair.items[0].has_folder &&
+           pair.items[1].has_folder &&
+           pair.items[0].folder_device == pair.items[1].folder_device &&
+           pair.items[0].folder_inode == pair.items[1].folder_inode;
+    otx_path_list_free(&pair);
+    return same;
 }

@@ -2,6 +2,8 @@
 #ifndef OTX_CLI_BAKE_OUTPUTS_H
 #define OTX_CLI_BAKE_OUTPUTS_H
 
+#include "cli/path_list.h"
+
 #include <osdtex/osdtex.h>
 
 #include <stdbool.h>
@@ -18,11 +20,17 @@ bool otx_bake_outputs_are_done(
     const char *cage, const osdtex_bake_options *options,
     const char hash[OSDTEX_HASH_BYTES]);
 
-/* Whether a bake may write over a file: one that is named as its textures are,
- * by a number or, as a mask's tiles are, by a token.
+/* Adds the files that a bake writes: the texts, and those textures that are
+ * there already, since which tiles there will be is not known yet.
+ *
+ *   cage  as above */
+void otx_bake_outputs_list(
+    const char *cage, const osdtex_bake_options *options, otx_path_list *out);
+
+/* Whether the name of another output may be that of a texture of the bake.
  *
  *   cage  as above
  *   path  NULL allowed */
-bool otx_bake_outputs_may_replace(const char *cage, const char *path);
+bool otx_bake_outputs_may_be(const char *cage, const char *path);
 
 #endif

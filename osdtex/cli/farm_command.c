@@ -157,7 +157,10 @@ run_words(const otx_job *job, int task, json_t *words)
             "task %d: osdtex %s takes %s", task, command->name,
             command->operands);
     else
+    {
+        values.job = job->path;
         code = command->run(&values);
+    }
     for (size_t i = 0; i < count + 2; ++i)
         free(argv[i]);
     free(argv);

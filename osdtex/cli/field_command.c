@@ -1,5 +1,6 @@
 /* field_command.c -- osdtex field: which way a texture would run on a cage. */
 #include "cli/field_flags.h"
+#include "cli/guard.h"
 #include "cli/inputs.h"
 #include "cli/picture_flags.h"
 #include "cli/session.h"
@@ -180,7 +181,9 @@ otx_field_command_run(const otx_flag_values *values)
         return OTX_EXIT_USAGE;
     if (!otx_session_begin(&session, values))
         return session.exit_code;
-    status = make(&session, &j);
+    status = otx_guard_check_flags(&session, values);
+    if (status == OSDTEX_OK)
+        status = make(&session, &j);
     osdtex_field_destroy(j.field);
     osdtex_surface_destroy(j.surface);
     osdtex_cage_destroy(j.cage);

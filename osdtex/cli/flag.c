@@ -446,12 +446,22 @@ id_of_letter(int letter)
 }
 
 bool
+otx_flag_is_taken(const otx_flag_values *values, otx_flag_id id)
+{
+    const otx_flag_id *ids = values->ids;
+
+    while (*ids != OTX_FLAG_COUNT && *ids != id)
+        ++ids;
+    return *ids == id;
+}
+
+bool
 otx_flag_parse(
     int argc, char **argv, const otx_flag_id *ids, otx_flag_values *out)
 {
     const getopt_table table = make_table(ids);
 
-    *out = (otx_flag_values){0};
+    *out = (otx_flag_values){.ids = ids};
     optind = 0; /* glibc: start afresh */
     opterr = 0;
     for (;;)

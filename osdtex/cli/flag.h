@@ -124,10 +124,15 @@ typedef struct otx_flag_values
     int also_count;
     const char *operands[OTX_FLAG_OPERANDS_MAX];
     int operand_count;
+    const otx_flag_id *ids; /* the flags of the command */
+    const char *job; /* file of the job that this is a task of; NULL none */
 } otx_flag_values;
 
 const otx_flag *otx_flag_at(otx_flag_id id);
 const char *otx_flag_group_title(otx_flag_group group);
+
+/* Whether the command takes a flag. */
+bool otx_flag_is_taken(const otx_flag_values *values, otx_flag_id id);
 
 /* Takes argv[1..argc) apart. `ids` ends with OTX_FLAG_COUNT. On a mistake it
  * prints one sentence on stderr and returns false. */

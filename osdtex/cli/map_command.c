@@ -1,5 +1,6 @@
 /* map_command.c -- osdtex map and osdtex bake: a cage and an exemplar in, a
  * textured model out, or the cage with textures. */
+#include "cli/guard.h"
 #include "cli/map_request.h"
 #include "cli/session.h"
 #include "cli/up_to_date.h"
@@ -221,6 +222,18 @@ clean_up(job *j)
     osdtex_cage_destroy(j->cage);
 }
 
+static osdtex_status
+check_outputs(otx_session *session, const job *j)
+{
+    otx_path_list outputs = {0};
+    osdtex_status status;
+
+    otx_map_request_outputs(&j->request, &outputs);
+    status = otx_guard_check(session, j->request.values, &outputs);
+    otx_path_list_free(&outputs);
+    return status;
+}
+
 static int
 run(const otx_flag_values *values, bool bake_only)
 {
@@ -230,11 +243,12 @@ run(const otx_flag_values *values, bool bake_only)
 
     if (!otx_map_request_parse(values, bake_only, &j.request))
         return OTX_EXIT_USAGE;
-    if (!otx_map_request_is_writable(&j.request))
-        return OTX_EXIT_IO;
     j.has_hash = otx_up_to_date_job(values, j.hash);
     if (!otx_session_begin(&session, values))
         return session.exit_code;
+    status = check_outputs(&session, &j);
+    if (status != OSDTEX_OK)
+        return otx_session_end(&session, status);
     if (values->text[OTX_FLAG_UPDATE] && j.has_hash &&
         otx_map_request_is_done(&j.request, j.hash))
     {

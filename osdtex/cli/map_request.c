@@ -12,7 +12,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #define DEGREES (3.14159265358979323846 / 180.0)
@@ -77,93 +76,6 @@ is_picture(const char *path)
 {
     return !path || otx_value_has_extension(path, ".png") ||
            otx_value_has_extension(path, ".exr");
-}
-
-static bool
-same_file(const char *a, const char *b)
-{
-    struct stat first, second;
-
-    return a && b && stat(a, &first) == 0 && stat(b, &second) == 0 &&
-           first.st_dev == second.st_dev && first.st_ino == second.st_ino;
-}
-
-/* An output must neither replace an input nor another output. */
-static bool
-outputs_are_apart(const otx_map_request *r)
-{
-    enum
-    {
-        INPUTS = OSDTEX_EXEMPLARS_MAX + 3,
-        OUTPUTS = OSDTEX_EXEMPLARS_MAX + 6
-    };
-    const char *inputs[INPUTS] = {
-        r->values->operands[0], r->values->operands[1],
-        r->values->text[OTX_FLAG_MASK], r->values->text[OTX_FLAG_CONSTRAINTS]};
-    const char *outputs[OUTPUTS] = {
-        r->maps ? r->obj : NULL,
-        r->maps ? r->mtl : NULL,
-        r->bakes ? r->cage_obj : NULL,
-        r->bakes ? r->cage_mtl : NULL,
-        r->preview,
-        r->report};
-
-    for (int k = 0; k < r->also.count; ++k)
-        inputs[4 + k] = r->also.files[k];
-    for (int k = 0; r->maps && k <= r->also.count; ++k)
-        outputs[6 + k] = r->exrs[k];
-    for (int k = 0; r->bakes && k < INPUTS; ++k)
-        if (otx_bake_outputs_may_replace(r->cage_obj, inputs[k]))
-        {
-            otx_session_refuse(
-                "'%s' is an input and named as a baked texture, which would "
-                "replace it; choose another name for the output",
-                inputs[k]);
-            return false;
-        }
-    for (int i = 0; i < OUTPUTS; ++i)
-    {
-        for (int k = 0; outputs[i] && k < INPUTS; ++k)
-        {
-            if (!same_file(outputs[i], inputs[k]))
-                continue;
-            otx_session_refuse(
-                "'%s' is an input and would be replaced; choose another name "
-                "for the output",
-                outputs[i]);
-            return false;
-        }
-        for (int k = 0; outputs[i] && k < i; ++k)
-        {
-            if (!outputs[k] || strcmp(outputs[i], outputs[k]) != 0)
-                continue;
-            otx_session_refuse("'%s' would be written twice", outputs[i]);
-            return false;
-        }
-    }
-    return true;
-}
-
-static bool
-folder_is_writable(const char *path)
-{
-    char folder[OTX_MAP_PATH_BYTES];
-    char *slash;
-
-    if (!path)
-        return true;
-    snprintf(folder, sizeof folder, "%s", path);
-    slash = strrchr(folder, '/');
-    if (!slash)
-        snprintf(folder, sizeof folder, ".");
-    else
-        slash[slash == folder] = '\0';
-    if (access(folder, W_OK | X_OK) == 0)
-        return true;
-    otx_session_refuse(
-        "'%s' cannot be written: its folder is not there or is read-only",
-        path);
-    return false;
 }
 
 static bool
@@ -276,6 +188,25 @@ cage_comes_first(const otx_map_request *r)
     return false;
 }
 
+/* Textures of a bake have numbers in their names; nothing else may. */
+static bool
+pictures_are_apart(const otx_map_request *r)
+{
+    const char *const others[] = {
+        r->preview, r->report, r->maps ? r->exrs[0] : NULL};
+
+    for (int i = 0; r->bakes && i < 3; ++i)
+        if (otx_bake_outputs_may_be(r->cage_obj, others[i]))
+        {
+            otx_session_refuse(
+                "'%s' may be the name of a baked texture too; give it another "
+                "name",
+                others[i]);
+            return false;
+        }
+    return true;
+}
+
 bool
 otx_map_request_parse(
     const otx_flag_values *values, bool bake_only, otx_map_request *r)
@@ -303,14 +234,23 @@ otx_map_request_parse(
             "--preview writes a .png or .exr, not '%s'", r->preview);
         return false;
     }
-    return cage_comes_first(r) && outputs_are_apart(r);
+    return cage_comes_first(r) && pictures_are_apart(r);
 }
 
-bool
-otx_map_request_is_writable(const otx_map_request *r)
+void
+otx_map_request_outputs(const otx_map_request *r, otx_path_list *out)
 {
-    return folder_is_writable(r->obj) && folder_is_writable(r->preview) &&
-           folder_is_writable(r->report);
+    if (r->maps)
+    {
+        otx_path_list_add(out, r->obj);
+        otx_path_list_add(out, r->mtl);
+    }
+    for (int k = 0; r->maps && k <= r->also.count; ++k)
+        otx_path_list_add(out, r->exrs[k]);
+    if (r->bakes)
+        otx_bake_outputs_list(r->cage_obj, &r->bake_options, out);
+    otx_path_list_add(out, r->preview);
+    otx_path_list_add(out, r->report);
 }
 
 static bool

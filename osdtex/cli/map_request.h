@@ -4,6 +4,7 @@
 #define OTX_CLI_MAP_REQUEST_H
 
 #include "cli/also_flags.h"
+#include "cli/path_list.h"
 
 enum
 {
@@ -32,9 +33,9 @@ typedef struct otx_map_request
 bool otx_map_request_parse(
     const otx_flag_values *values, bool bake_only, otx_map_request *out);
 
-/* Whether the folders of all outputs can be written to: better said before a
- * long job than after it. False after saying which one cannot. */
-bool otx_map_request_is_writable(const otx_map_request *request);
+/* Adds the files that will be written. */
+void
+otx_map_request_outputs(const otx_map_request *request, otx_path_list *out);
 
 /* Whether all outputs are there, of the job with this hash. */
 bool otx_map_request_is_done(

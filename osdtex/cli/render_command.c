@@ -3,6 +3,7 @@
  * A field is not in an OBJ: to be shown it is made anew on the model's own
  * faces, as on a plain mesh. */
 #include "cli/field_flags.h"
+#include "cli/guard.h"
 #include "cli/picture_flags.h"
 #include "cli/session.h"
 #include "cli/value.h"
@@ -148,7 +149,9 @@ otx_render_command_run(const otx_flag_values *values)
         return OTX_EXIT_USAGE;
     if (!otx_session_begin(&session, values))
         return session.exit_code;
-    status = render(&session, &j);
+    status = otx_guard_check_flags(&session, values);
+    if (status == OSDTEX_OK)
+        status = render(&session, &j);
     drop(&j);
     return otx_session_end(&session, status);
 }

@@ -1,4 +1,5 @@
 /* tiles_command.c -- osdtex tiles: a tiled texture from a picture. */
+#include "cli/guard.h"
 #include "cli/inputs.h"
 #include "cli/session.h"
 #include "cli/value.h"
@@ -271,6 +272,7 @@ make(otx_session *session, job *j)
 int
 otx_tiles_command_run(const otx_flag_values *values)
 {
+    osdtex_status status;
     otx_session session;
     job j;
 
@@ -278,5 +280,8 @@ otx_tiles_command_run(const otx_flag_values *values)
         return OTX_EXIT_USAGE;
     if (!otx_session_begin(&session, values))
         return session.exit_code;
-    return otx_session_end(&session, make(&session, &j));
+    status = otx_guard_check_flags(&session, values);
+    if (status == OSDTEX_OK)
+        status = make(&session, &j);
+    return otx_session_end(&session, status);
 }

@@ -340,7 +340,7 @@ class Refused(MaskTest):
             result = self.run_program(
                 "bake", PLANE, FIRST, "-o", self.folder / "out.obj", *QUICK,
                 "--also", GRASS, "--mask", self.folder / name)
-            self.assert_error(result, 1, "named as a baked texture")
+            self.assert_error(result, 1, "is an input")
             self.assertEqual(mask.read_bytes(), before)
         mask = self.folder / "out_mask.1001.png"
         write_png(mask, 4, 4, lambda x, y: (255, 0, 0))

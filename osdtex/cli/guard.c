@@ -1,0 +1,168 @@
+/* guard.c -- what is read must not be written, nor anything be written twice.
+ */
+#include "cli/guard.h"
+
+#include "cli/also_flags.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static void
+add(void *list, const char *path)
+{
+    otx_path_list_add(list, path);
+}
+
+/* A file, and what it names. It counts where it is not there, too: it may be
+ * a pipe. */
+static osdtex_status
+add_file(osdtex_context *context, otx_path_list *list, const char *path)
+{
+    if (!path || !*path)
+        return OSDTEX_OK;
+    otx_path_list_add(list, path);
+    return osdtex_file_references(context, path, add, list);
+}
+
+osdtex_status
+otx_guard_inputs(
+    osdtex_context *context, const otx_flag_values *values, otx_path_list *out)
+{
+    static const otx_flag_id files[] = {
+        OTX_FLAG_MASK, OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOR};
+    osdtex_status status = OSDTEX_OK;
+
+    for (int i = 0; i < values->operand_count && status == OSDTEX_OK; ++i)
+        status = add_file(context, out, values->operands[i]);
+    for (int i = 0; i < 3 && status == OSDTEX_OK; ++i)
+        status = add_file(context, out, values->text[files[i]]);
+    for (int i = 0; i < values->also_count && status == OSDTEX_OK; ++i)
+        status = add_file(context, out, otx_also_flags_file(values->also[i]));
+    otx_path_list_add(out, values->job);
+    if (status == OSDTEX_OK && otx_flag_is_taken(values, OTX_FLAG_COLORCONFIG))
+        status = osdtex_colour_references(context, add, out);
+    return status;
+}
+
+/* ---- places ---------------------------------------------------------------
+ */
+
+static bool
+folder_is_writable(const otx_path *path)
+{
+    const char *slash = strrchr(path->name, '/');
+    char *folder = slash ? strndup(path->name, (size_t)(slash - path->name) + 1)
+                         : strdup(".");
+    const bool fine = folder && access(folder, W_OK | X_OK) == 0;
+
+    free(folder);
+    return fine;
+}
+
+/* What speaks against writing there; NULL nothing. */
+static const char *
+obstacle(const otx_path *path)
+{
+    struct stat info;
+
+    if (!folder_is_writable(path))
+        return "cannot be written: its folder is not there or is read-only";
+    if (lstat(path->name, &info) != 0)
+        return errno == ENAMETOOLONG ? "cannot be written: its name is too long"
+                                     : NULL;
+    if (S_ISLNK(info.st_mode))
+        return "is a link, which would be replaced by a file; remove it, or "
+               "name the file itself";
+    if (!S_ISREG(info.st_mode))
+        return "is a folder or a device, not a file; give the output a name of "
+               "its own";
+    if (!(info.st_mode & 0222) || access(path->name, W_OK) != 0)
+        return "is write-protected; make it writable, or choose another name "
+               "for the output";
+    return NULL;
+}
+
+/* ---------------------------------------------------------------------- */
+
+static bool
+is_listed_before(const otx_path_list *list, int i)
+{
+    for (int k = 0; k < i; ++k)
+        if (otx_path_list_is_same(&list->items[k], &list->items[i]))
+            return true;
+    return false;
+}
+
+static osdtex_status
+check_pairs(const otx_path_list *inputs, const otx_path_list *outputs)
+{
+    for (int i = 0; i < outputs->count; ++i)
+    {
+        const otx_path *one = &outputs->items[i];
+
+        if (otx_path_list_find(inputs, one))
+        {
+            otx_session_refuse(
+                "'%s' is an input and would be replaced; choose another name "
+                "for the output",
+                one->name);
+            return OSDTEX_ERROR_ARGUMENT;
+        }
+        if (is_listed_before(outputs, i))
+        {
+            otx_session_refuse("'%s' would be written twice", one->name);
+            return OSDTEX_ERROR_ARGUMENT;
+        }
+    }
+    return OSDTEX_OK;
+}
+
+static osdtex_status
+check_places(const otx_path_list *outputs)
+{
+    for (int i = 0; i < outputs->count; ++i)
+    {
+        const char *why = obstacle(&outputs->items[i]);
+
+        if (!why)
+            continue;
+        otx_session_refuse("'%s' %s", outputs->items[i].name, why);
+        return OSDTEX_ERROR_IO;
+    }
+    return OSDTEX_OK;
+}
+
+osdtex_status
+otx_guard_check(
+    otx_session *session, const otx_flag_values *values,
+    const otx_path_list *outputs)
+{
+    otx_path_list inputs = {0};
+    osdtex_status status = otx_guard_inputs(session->context, values, &inputs);
+
+    if (status == OSDTEX_OK && (inputs.out_of_memory || outputs->out_of_memory))
+        status = OSDTEX_ERROR_MEMORY;
+    if (status == OSDTEX_OK)
+        status = check_pairs(&inputs, outputs);
+    if (status == OSDTEX_OK)
+        status = check_places(outputs);
+    otx_path_list_free(&inputs);
+    return status;
+}
+
+osdtex_status
+otx_guard_check_flags(otx_session *session, const otx_flag_values *values)
+{
+    otx_path_list outputs = {0};
+    osdtex_status status;
+
+    otx_path_list_add(&outputs, values->text[OTX_FLAG_OUTPUT]);
+    otx_path_list_add(&outputs, values->text[OTX_FLAG_PREVIEW]);
+    otx_path_list_add(&outputs, values->text[OTX_FLAG_JSON_REPORT]);
+    status = otx_guard_check(session, values, &outputs);
+    otx_path_list_free(&outputs);
+    return status;
+}
