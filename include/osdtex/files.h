@@ -1,4 +1,4 @@
-/* files.h -- what files depend on. */
+/* files.h -- files that appear together, and what files depend on. */
 #ifndef OSDTEX_FILES_H
 #define OSDTEX_FILES_H
 
@@ -28,6 +28,29 @@ OSDTEX_API osdtex_status osdtex_colour_references(
  * COLOUR, ARGUMENT, MEMORY. */
 OSDTEX_API osdtex_status
 osdtex_colour_hash(osdtex_context *context, char hash[OSDTEX_HASH_BYTES]);
+
+/* From here on, what calls of this context write appears when the set is
+ * committed: all of it or, when something goes wrong before, nothing, and what
+ * was there before stays. ARGUMENT (a set has been begun), MEMORY. */
+OSDTEX_API osdtex_status osdtex_outputs_begin(osdtex_context *context);
+
+/* Makes a file of the caller's own part of the set: an empty one, which has
+ * been closed by the time of the commit.
+ *
+ *   path       what it will be called
+ *   temporary  what it is called until then; lives as long as the set
+ *
+ * ARGUMENT (no set), IO (no such folder, `path` is a link, protected or no
+ * plain file), MEMORY. */
+OSDTEX_API osdtex_status osdtex_outputs_add(
+    osdtex_context *context, const char *path, const char **temporary);
+
+/* Gives all files their names, but for those of calls that failed, and
+ * ends the set in any case. CANCELLED by progress, ARGUMENT (no set), IO. */
+OSDTEX_API osdtex_status osdtex_outputs_commit(osdtex_context *context);
+
+/* Ends the set without its files; nothing where there is none. */
+OSDTEX_API void osdtex_outputs_drop(osdtex_context *context);
 
 OSDTEX_END_DECLS
 

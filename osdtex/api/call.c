@@ -32,6 +32,7 @@ otx_call_begin(osdtex_context *context, const char *stage, otx_call *call)
                 .diagnostics = context->diagnostics,
                 .progress = context->options.progress,
                 .progress_user = context->options.progress_user,
+                .outputs = context->outputs,
             },
         .scratch = otx_arena_here(context->scratch),
         .begun = now(),

@@ -33,6 +33,8 @@ struct osdtex_context
     osdtex_context_options options;
     otx_colour colour; /* see otx_call_colour */
     bool colour_is_open;
+    otx_arena *outputs_arena; /* of the set below; NULL none */
+    struct otx_atomic_file_set *outputs;
     int32_t time_count;
     otx_call_time times[OTX_CALL_TIMES_MAX];
 };

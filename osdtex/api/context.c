@@ -111,6 +111,7 @@ osdtex_context_destroy(osdtex_context *context)
 {
     if (!context)
         return;
+    osdtex_outputs_drop(context);
     otx_pool_destroy(context->pool);
     otx_arena_destroy(context->scratch);
     otx_arena_destroy(context->arena);

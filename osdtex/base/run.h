@@ -45,6 +45,8 @@ typedef struct otx_run
     otx_progress_fn progress; /* NULL none */
     void *progress_user;
     uint64_t seed;
+    struct otx_atomic_file_set *outputs; /* what is written goes there; NULL:
+                                          * each call has a set of its own */
 } otx_run;
 
 /* NULL when memory is out. */

@@ -164,6 +164,8 @@ make(otx_session *session, job *j)
                                j->level >= 0 ? j->level : 0, j->output)
                          : draw(session, j);
     if (status == OSDTEX_OK)
+        status = otx_session_commit(session);
+    if (status == OSDTEX_OK)
         otx_session_say(
             session, "wrote %s, %.1f s", j->output,
             otx_session_seconds(session));

@@ -205,6 +205,8 @@ texture(otx_session *session, job *j)
     otx_session_lap(session, "rendered");
     if (status == OSDTEX_OK)
         status = write_outputs(session, j);
+    if (status == OSDTEX_OK)
+        status = otx_session_commit(session);
     otx_session_lap(session, "written");
     if (status == OSDTEX_OK)
         say_done(session, j);

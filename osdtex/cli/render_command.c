@@ -103,6 +103,8 @@ draw(otx_session *session, job *j)
     if (status == OSDTEX_OK)
         status = osdtex_image_write(session->context, j->image, j->output);
     if (status == OSDTEX_OK)
+        status = otx_session_commit(session);
+    if (status == OSDTEX_OK)
         otx_session_say(
             session, "wrote %s, %.1f s", j->output,
             otx_session_seconds(session));

@@ -16,26 +16,43 @@ enum
     MAX_THREADS = 256
 };
 
-/* The one thing a signal handler may touch; a process has one of it. */
+/* All that a signal handler touches; a process has one of each. */
 static volatile sig_atomic_t caught_signal;
+static volatile sig_atomic_t is_committing;
 
+/* The first one stops the work. A second one from a person kills at once, since
+ * somebody means it, but not while files take their names. */
 static void
 catch_signal(int number)
 {
-    caught_signal = number;
+    const bool is_meant =
+        number == SIGINT || number == SIGTERM || number == SIGQUIT;
+
+    if (caught_signal && is_meant && !is_committing)
+    {
+        signal(number, SIG_DFL);
+        raise(number);
+    }
+    if (!caught_signal)
+        caught_signal = number;
 }
 
-/* A second signal kills at once: somebody means it. */
+/* Everything that would end the process, and that it may clean up after. What
+ * the caller ignores (nohup) stays ignored. */
 static void
 listen_to_signals(void)
 {
-    struct sigaction action = {0};
+    static const int numbers[] = {SIGINT,  SIGTERM, SIGQUIT,   SIGHUP,
+                                  SIGXCPU, SIGUSR1, SIGUSR2,   SIGALRM,
+                                  SIGPROF, SIGPWR,  SIGVTALRM, SIGIO};
+    struct sigaction action = {0}, before;
 
     action.sa_handler = catch_signal;
-    action.sa_flags = (int)SA_RESETHAND;
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i)
+        if (sigaction(numbers[i], NULL, &before) == 0 &&
+            before.sa_handler != SIG_IGN)
+            sigaction(numbers[i], &action, NULL);
     /* A closed pipe and a file too large (ulimit -f) are errors of the write,
      * not deaths that leave half a file. */
     signal(SIGPIPE, SIG_IGN);
@@ -297,7 +314,10 @@ otx_session_begin(otx_session *session, const otx_flag_values *values)
     listen_to_signals();
     status = osdtex_context_create(&options, &session->context);
     if (status == OSDTEX_OK)
+        status = osdtex_outputs_begin(session->context);
+    if (status == OSDTEX_OK)
         return true;
+    osdtex_context_destroy(session->context);
     fprintf(
         stderr, "osdtex: error: no context: %s\n", osdtex_status_name(status));
     session->exit_code = OTX_EXIT_LIMIT;
@@ -325,6 +345,17 @@ exit_code_of(osdtex_status status)
     default:
         return OTX_EXIT_LIMIT;
     }
+}
+
+osdtex_status
+otx_session_commit(otx_session *session)
+{
+    osdtex_status status;
+
+    is_committing = 1;
+    status = osdtex_outputs_commit(session->context);
+    is_committing = 0;
+    return status;
 }
 
 int

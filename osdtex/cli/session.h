@@ -20,12 +20,17 @@ typedef struct otx_session
 } otx_session;
 
 /* Makes the context from --threads, --memory-limit, --colorconfig, -v, -q and
- * the environment, and catches SIGINT and SIGTERM. False after saying what is
- * wrong; then session->exit_code is what to return. The session must not move.
- */
+ * the environment, begins a set of outputs, and catches signals. False after
+ * saying what is wrong; then session->exit_code is what to return. The session
+ * must not move. */
 bool otx_session_begin(otx_session *session, const otx_flag_values *values);
 
-/* Frees the context and returns the exit code for `status`. */
+/* Gives all that was written its names, unless a signal has come. Once for a
+ * session: before it says that anything was written. */
+osdtex_status otx_session_commit(otx_session *session);
+
+/* Drops what was written and not committed, frees the context and returns the
+ * exit code for `status`. */
 int otx_session_end(otx_session *session, osdtex_status status);
 
 /* A line on stderr, unless -q. */
@@ -40,8 +45,8 @@ int otx_session_refuse(const char *format, ...)
 /* With -v: says how long it took since the last lap. */
 void otx_session_lap(otx_session *session, const char *what);
 
-/* Whether SIGINT or SIGTERM has come: for work outside of the library, which
- * asks by itself. */
+/* Whether a signal has come that ends the program: for work outside of the
+ * library, which asks by itself. */
 bool otx_session_is_stopped(void);
 
 /* Seconds since the session began. */

@@ -261,6 +261,8 @@ make(otx_session *session, job *j)
         status = osdtex_tiles_write(
             context, exemplar, surface, &j->options, j->output, &info);
         if (status == OSDTEX_OK)
+            status = otx_session_commit(session);
+        if (status == OSDTEX_OK)
             say_done(session, j, &info);
     }
     osdtex_surface_destroy(surface);

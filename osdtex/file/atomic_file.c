@@ -3,8 +3,12 @@
  * rename(2) replaces one file in one step, but nothing replaces several. So
  * everything that can fail for a reason (no folder, no right to write, a full
  * disk) fails before the first rename: temporaries are made in the final
- * folder, and `durable` syncs all of them first. */
+ * folder, and what is durable is synced first. While files take their names,
+ * those that they replace are kept under second names, and come back when one
+ * of them cannot. */
 #include "file/atomic_file.h"
+
+#include "file/temporary.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -15,18 +19,14 @@
 
 #define STAGE "write"
 
-enum
-{
-    MAX_ATTEMPTS = 1000,
-    SUFFIX_BYTES = 48
-};
-
 typedef struct entry
 {
     struct entry *next;
-    char *path;
-    char *temporary;
-    bool existed; /* `path` did, when the temporary was made */
+    const char *path;
+    const char *temporary;
+    const char *old; /* what `path` was before the commit; NULL none */
+    bool existed;    /* `path` did, when the temporary was made */
+    bool finished;   /* its writer says so */
     bool renamed;
 } entry;
 
@@ -35,16 +35,16 @@ struct otx_atomic_file_set
     otx_arena *arena;
     entry *first;
     entry **last; /* where the next one goes */
+    bool is_shared;
+    bool durable; /* asked for by the writer of one of them */
 };
 
 static otx_status
 fail_errno(otx_run *run, const char *path, const char *what, int error)
 {
-    otx_where where = OTX_NOWHERE;
-
-    where.file = path;
     return otx_fail(
-        run, OSDTEX_ERROR_IO, STAGE, where, "%s: %s", what, strerror(error));
+        run, OSDTEX_ERROR_IO, STAGE, otx_where_file(path), "%s: %s", what,
+        strerror(error));
 }
 
 /* Removes the temporaries now. The set is then empty. */
@@ -55,6 +55,8 @@ discard(otx_atomic_file_set *set)
     {
         if (!e->renamed)
             unlink(e->temporary);
+        if (e->old)
+            unlink(e->old);
     }
     set->first = NULL;
     set->last = &set->first;
@@ -66,56 +68,78 @@ discard_deferred(void *set)
     discard(set);
 }
 
-otx_status
-otx_atomic_file_begin(otx_run *run, otx_arena *arena, otx_atomic_file_set **out)
+static otx_status
+begin(otx_run *run, otx_arena *arena, bool is_shared, otx_atomic_file_set **out)
 {
-    otx_atomic_file_set *set = OTX_NEW(arena, otx_atomic_file_set, 1);
+    otx_atomic_file_set *set = OTX_ZNEW(arena, otx_atomic_file_set, 1);
 
     *out = NULL;
     if (!set)
         return otx_fail_memory(run, STAGE);
-    *set = (otx_atomic_file_set){arena, NULL, &set->first};
+    set->arena = arena;
+    set->last = &set->first;
+    set->is_shared = is_shared;
     if (!otx_arena_defer(arena, discard_deferred, set))
         return otx_fail_memory(run, STAGE);
     *out = set;
     return OSDTEX_OK;
 }
 
-/* Creates a file that nobody else has, beside `path`. The process number
- * keeps jobs on one machine apart, O_EXCL the rest. */
-static otx_status
-create_temporary(otx_run *run, const char *path, char *name, size_t bytes)
+otx_status
+otx_atomic_file_begin(otx_run *run, otx_arena *arena, otx_atomic_file_set **out)
 {
-    int fd = -1;
-
-    for (int i = 0; i < MAX_ATTEMPTS && fd < 0; ++i)
-    {
-        snprintf(name, bytes, "%s.tmp-%ld-%d", path, (long)getpid(), i);
-        fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (fd < 0 && errno != EEXIST)
-            break;
-    }
-    if (fd < 0)
-        return fail_errno(
-            run, path, "no file can be made in this folder", errno);
-    close(fd);
-    return OSDTEX_OK;
+    *out = run->outputs;
+    return run->outputs ? OSDTEX_OK : begin(run, arena, false, out);
 }
 
+otx_status
+otx_atomic_file_share(otx_run *run, otx_arena *arena, otx_atomic_file_set **out)
+{
+    return begin(run, arena, true, out);
+}
+
+/* A link would be replaced by a file, and what was protected by another. */
 static otx_status
 check_target(otx_run *run, const char *path, bool *existed)
 {
+    const otx_where where = otx_where_file(path);
     struct stat info;
-    otx_where where = OTX_NOWHERE;
 
-    where.file = path;
-    *existed = stat(path, &info) == 0;
-    if (!*existed || S_ISREG(info.st_mode))
+    *existed = lstat(path, &info) == 0;
+    if (!*existed && errno == ENAMETOOLONG)
+        return fail_errno(run, path, "the output needs another name", errno);
+    if (!*existed)
         return OSDTEX_OK;
-    return otx_fail(
-        run, OSDTEX_ERROR_IO, STAGE, where,
-        "this is a folder or a device, not a file; give the output a name of "
-        "its own");
+    if (S_ISLNK(info.st_mode))
+        return otx_fail(
+            run, OSDTEX_ERROR_IO, STAGE, where,
+            "this is a link, which would be replaced by a file; remove it, or "
+            "name the file itself");
+    if (!S_ISREG(info.st_mode))
+        return otx_fail(
+            run, OSDTEX_ERROR_IO, STAGE, where,
+            "this is a folder or a device, not a file; give the output a name "
+            "of its own");
+    if (!(info.st_mode & 0222) || access(path, W_OK) != 0)
+        return otx_fail(
+            run, OSDTEX_ERROR_IO, STAGE, where,
+            "this file is write-protected; make it writable, or give the "
+            "output another name");
+    return OSDTEX_OK;
+}
+
+/* Whether the set has had a file in the folder of `path` before. */
+static bool
+knows_folder(const otx_atomic_file_set *set, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t length = slash ? (size_t)(slash - path) + 1 : 0;
+
+    for (const entry *e = set->first; e; e = e->next)
+        if (strncmp(e->path, path, length) == 0 &&
+            !strchr(e->path + length, '/'))
+            return true;
+    return false;
 }
 
 otx_status
@@ -123,19 +147,23 @@ otx_atomic_file_add(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const char **temporary)
 {
-    const size_t bytes = strlen(path) + SUFFIX_BYTES;
     entry *e = OTX_ZNEW(set->arena, entry, 1);
+    int error;
 
     *temporary = NULL;
     if (e)
-    {
         e->path = otx_arena_strdup(set->arena, path);
-        e->temporary = OTX_NEW(set->arena, char, bytes);
-    }
-    if (!e || !e->path || !e->temporary)
+    if (!e || !e->path)
         return otx_fail_memory(run, STAGE);
     OTX_TRY(check_target(run, path, &e->existed));
-    OTX_TRY(create_temporary(run, path, e->temporary, bytes));
+    if (!knows_folder(set, path))
+        otx_temporary_sweep(path);
+    error = otx_temporary_create(set->arena, path, NULL, &e->temporary);
+    if (error == ENOMEM)
+        return otx_fail_memory(run, STAGE);
+    if (error != 0)
+        return fail_errno(
+            run, path, "no file can be made in this folder", error);
     *set->last = e;
     set->last = &e->next;
     *temporary = e->temporary;
@@ -157,25 +185,33 @@ sync_entry(otx_run *run, const entry *e)
     return fail_errno(run, e->path, "the file cannot be written", error);
 }
 
-/* After a rename that failed: takes back what was not there before. */
+/* After a rename that failed: what was there before is there again. Where the
+ * disk knows no second names, an older file that was replaced stays so. */
 static void
 take_back(otx_atomic_file_set *set)
 {
-    for (const entry *e = set->first; e; e = e->next)
+    for (entry *e = set->first; e; e = e->next)
     {
-        if (e->renamed && !e->existed)
+        if (!e->renamed)
+            continue;
+        if (e->old && rename(e->old, e->path) == 0)
+            e->old = NULL;
+        else if (!e->existed)
             unlink(e->path);
     }
     discard(set);
 }
 
-otx_status
-otx_atomic_file_commit(otx_run *run, otx_atomic_file_set *set, bool durable)
+/* Gives the finished files their names. */
+static otx_status
+rename_all(otx_run *run, otx_atomic_file_set *set)
 {
-    for (const entry *e = set->first; e && durable; e = e->next)
-        OTX_TRY(sync_entry(run, e));
     for (entry *e = set->first; e; e = e->next)
     {
+        if (!e->finished)
+            continue;
+        if (e->existed)
+            otx_temporary_create(set->arena, e->path, e->path, &e->old);
         if (rename(e->temporary, e->path) != 0)
         {
             const otx_status status = fail_errno(
@@ -188,4 +224,22 @@ otx_atomic_file_commit(otx_run *run, otx_atomic_file_set *set, bool durable)
     }
     discard(set);
     return OSDTEX_OK;
+}
+
+otx_status
+otx_atomic_file_publish(otx_run *run, otx_atomic_file_set *set)
+{
+    for (const entry *e = set->first; e && set->durable; e = e->next)
+        if (e->finished)
+            OTX_TRY(sync_entry(run, e));
+    return rename_all(run, set);
+}
+
+otx_status
+otx_atomic_file_commit(otx_run *run, otx_atomic_file_set *set, bool durable)
+{
+    for (entry *e = set->first; e; e = e->next)
+        e->finished = true;
+    set->durable |= durable;
+    return set->is_shared ? OSDTEX_OK : otx_atomic_file_publish(run, set);
 }

@@ -3,7 +3,11 @@
  * Every file of a set is written under a temporary name beside its final one.
  * Commit renames them all; anything else (an error, a cancelled run) removes
  * them, when the arena that the set was begun in is released. So a status that
- * travels up is all the cleaning that an interrupted job needs. */
+ * travels up is all the cleaning that an interrupted job needs.
+ *
+ * What several calls write can be one set, too: a shared set, which a run
+ * carries (run->outputs). Then `begin` gives that set, `commit` only says that
+ * what was added so far is finished, and `publish` ends it. */
 #ifndef OTX_FILE_ATOMIC_FILE_H
 #define OTX_FILE_ATOMIC_FILE_H
 
@@ -12,22 +16,32 @@
 typedef struct otx_atomic_file_set otx_atomic_file_set;
 
 /* Begins an empty set; what is not committed when `arena` is released past
- * this point is removed. */
+ * this point is removed. The shared set of the run, where it has one. */
 otx_status otx_atomic_file_begin(
     otx_run *run, otx_arena *arena, otx_atomic_file_set **out);
 
+/* Begins a shared set: for run->outputs of the runs that are to share it. */
+otx_status otx_atomic_file_share(
+    otx_run *run, otx_arena *arena, otx_atomic_file_set **out);
+
 /* Creates the temporary of `path`, empty, and gives its name in *temporary
- * (it lives in the set's arena) for whoever writes it. IO when the folder
- * does not exist or cannot be written to, or `path` is not a plain file. */
+ * (it lives in the set's arena) for whoever writes it. Temporaries that killed
+ * processes of this machine left in the folder are removed. IO when the folder
+ * does not exist or cannot be written to, or `path` is a link, protected, or no
+ * plain file. */
 otx_status otx_atomic_file_add(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const char **temporary);
 
 /* Renames all to their final names, in the order they were added. `durable`
- * waits until the disk has the bytes. When a rename fails, final names that
- * did not exist before are removed again, and the rest of the set with them;
- * a file that had already taken the place of an older one stays. */
+ * waits until the disk has the bytes. When a rename fails, the others are taken
+ * back: what was there before is there again. Of a shared set: says that what
+ * was added is finished. */
 otx_status
 otx_atomic_file_commit(otx_run *run, otx_atomic_file_set *set, bool durable);
+
+/* Renames the finished files of a shared set and removes the others, as
+ * `commit` does of a set of its own. */
+otx_status otx_atomic_file_publish(otx_run *run, otx_atomic_file_set *set);
 
 #endif

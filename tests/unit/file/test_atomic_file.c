@@ -6,6 +6,7 @@
 #include <dirent.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 typedef struct fixture
@@ -152,6 +153,112 @@ a_failing_rename_takes_back_new_files(void **state)
     assert_int_equal(count_files(f), 1);
 }
 
+/* What was there before is there again, whichever file fails. */
+static void
+a_failing_rename_brings_back_old_files(void **state)
+{
+    fixture *f = *state;
+    otx_atomic_file_set *set;
+
+    put(f->a, "old a");
+    set = make_set(f);
+    assert_int_equal(mkdir(f->b, 0777), 0);
+    assert_int_equal(
+        otx_atomic_file_commit(f->run, set, true), OSDTEX_ERROR_IO);
+    assert_true(holds(f->a, "old a"));
+    assert_int_equal(count_files(f), 2);
+}
+
+/* Calls that share a set: nothing appears before the end, and what a call did
+ * not finish never does. */
+static void
+a_shared_set_appears_at_its_end(void **state)
+{
+    fixture *f = *state;
+    otx_run *run = f->run;
+    otx_atomic_file_set *shared, *set;
+    const char *temporary;
+
+    assert_int_equal(
+        otx_atomic_file_share(run, run->scratch, &shared), OSDTEX_OK);
+    run->outputs = shared;
+    assert_int_equal(otx_atomic_file_begin(run, run->scratch, &set), OSDTEX_OK);
+    assert_ptr_equal(set, shared);
+    assert_int_equal(
+        otx_atomic_file_add(run, set, f->a, &temporary), OSDTEX_OK);
+    put(temporary, "new a");
+    assert_int_equal(otx_atomic_file_commit(run, set, true), OSDTEX_OK);
+    assert_int_not_equal(access(f->a, F_OK), 0);
+    assert_int_equal(
+        otx_atomic_file_add(run, set, f->b, &temporary), OSDTEX_OK);
+    assert_int_equal(otx_atomic_file_publish(run, shared), OSDTEX_OK);
+    run->outputs = NULL;
+    assert_true(holds(f->a, "new a"));
+    assert_int_equal(count_files(f), 1);
+}
+
+static void
+links_and_protected_files_are_refused(void **state)
+{
+    fixture *f = *state;
+    otx_atomic_file_set *set;
+    const char *temporary;
+
+    assert_int_equal(
+        otx_atomic_file_begin(f->run, f->run->scratch, &set), OSDTEX_OK);
+    put(f->b, "kept");
+    assert_int_equal(symlink(f->b, f->a), 0);
+    assert_int_equal(
+        otx_atomic_file_add(f->run, set, f->a, &temporary), OSDTEX_ERROR_IO);
+    assert_non_null(strstr(test_last_message(f->run), "link"));
+    assert_int_equal(chmod(f->b, 0444), 0);
+    assert_int_equal(
+        otx_atomic_file_add(f->run, set, f->b, &temporary), OSDTEX_ERROR_IO);
+    assert_non_null(strstr(test_last_message(f->run), "write-protected"));
+}
+
+/* A process that ends as if killed, and the next one in that folder. */
+static void
+leftovers_of_the_dead_are_swept(void **state)
+{
+    fixture *f = *state;
+    char stranger[96];
+    int ended;
+
+    if (fork() == 0)
+    {
+        make_set(f);
+        _exit(0);
+    }
+    wait(&ended);
+    assert_int_equal(count_files(f), 2);
+    snprintf(stranger, sizeof stranger, "%s.tmp-deadbeef-999999999-0", f->a);
+    put(stranger, "of another machine");
+    make_set(f);
+    assert_int_equal(count_files(f), 3);
+    assert_int_equal(unlink(stranger), 0);
+}
+
+static void
+the_longest_name_has_a_temporary(void **state)
+{
+    fixture *f = *state;
+    otx_atomic_file_set *set;
+    const char *temporary;
+    char path[300];
+
+    snprintf(path, sizeof path, "%s/%0251d.obj", f->folder, 1);
+    assert_int_equal(
+        otx_atomic_file_begin(f->run, f->run->scratch, &set), OSDTEX_OK);
+    assert_int_equal(
+        otx_atomic_file_add(f->run, set, path, &temporary), OSDTEX_OK);
+    assert_int_equal(otx_atomic_file_commit(f->run, set, false), OSDTEX_OK);
+    assert_int_equal(unlink(path), 0);
+    snprintf(path, sizeof path, "%s/%0252d.obj", f->folder, 1);
+    assert_int_equal(
+        otx_atomic_file_add(f->run, set, path, &temporary), OSDTEX_ERROR_IO);
+}
+
 static void
 impossible_places_are_refused_at_once(void **state)
 {
@@ -181,8 +288,15 @@ main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
     const struct CMUnitTest tests[] = {
-        TEST(commit_replaces_all), TEST(release_without_commit_leaves_what_was),
-        TEST(two_jobs_do_not_meet), TEST(a_failing_rename_takes_back_new_files),
+        TEST(commit_replaces_all),
+        TEST(release_without_commit_leaves_what_was),
+        TEST(two_jobs_do_not_meet),
+        TEST(a_failing_rename_takes_back_new_files),
+        TEST(a_failing_rename_brings_back_old_files),
+        TEST(a_shared_set_appears_at_its_end),
+        TEST(links_and_protected_files_are_refused),
+        TEST(leftovers_of_the_dead_are_swept),
+        TEST(the_longest_name_has_a_temporary),
         TEST(impossible_places_are_refused_at_once)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);
