@@ -39,6 +39,20 @@ enum
                                * over the line where its borders meet */
 };
 
+/* For which program textures are written. It settles their colour space, where
+ * `to` does not, and their file type: 8-bit sRGB PNG for the web, EXR for all
+ * others. */
+typedef int32_t osdtex_receiver;
+enum
+{
+    OSDTEX_RECEIVER_ANY = 0,
+    OSDTEX_RECEIVER_BLENDER = 1,
+    OSDTEX_RECEIVER_MAYA = 2,
+    OSDTEX_RECEIVER_HOUDINI = 3,
+    OSDTEX_RECEIVER_USD = 4,
+    OSDTEX_RECEIVER_WEB = 5
+};
+
 typedef struct osdtex_exemplar_options
 {
     size_t size;
@@ -50,7 +64,7 @@ typedef struct osdtex_exemplar_options
     osdtex_embedding embedding;
     osdtex_wrap wrap;
     osdtex_tileable tileable;
-    int32_t reserved;
+    osdtex_receiver receiver; /* of the textures; `to` wins over it */
 } osdtex_exemplar_options;
 
 static inline osdtex_exemplar_options

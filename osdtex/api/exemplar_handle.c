@@ -53,10 +53,13 @@ check_options(
     if (ours->embedding < 0 || ours->embedding >= OTX_EMBEDDING_COUNT ||
         ours->wrap < OSDTEX_WRAP_AUTO || ours->wrap > OSDTEX_WRAP_YES ||
         ours->tileable < OSDTEX_TILEABLE_AUTO ||
-        ours->tileable > OSDTEX_TILEABLE_MAKE)
+        ours->tileable > OSDTEX_TILEABLE_MAKE ||
+        ours->receiver < OSDTEX_RECEIVER_ANY ||
+        ours->receiver >= OTX_RECEIVER_COUNT)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "colour", OTX_NOWHERE,
-            "embedding, wrap or tileable is none of the values of osdtex.h");
+            "embedding, wrap, tileable or receiver is none of the values of "
+            "osdtex.h");
     return OSDTEX_OK;
 }
 
@@ -164,6 +167,7 @@ build(
         return otx_fail_memory(run, "colour");
     OTX_TRY(otx_call_colour(call, &colour));
     input->to = options->to;
+    input->receiver = (otx_receiver)options->receiver;
     input->match_space = options->match_space;
     input->embedding = (otx_embedding)options->embedding;
     input->wrap = (otx_exemplar_wrap)options->wrap;

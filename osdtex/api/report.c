@@ -228,6 +228,10 @@ put_colour(
         set_text(colour, "config_hash", hash);
     set_text(colour, "from", info->source_space);
     set_text(colour, "to", info->linear_space);
+    if (otx_receiver_name(mapping->exemplar->exemplar.receiver))
+        set_text(
+            colour, "for",
+            otx_receiver_name(mapping->exemplar->exemplar.receiver));
     set_text(colour, "match_space", info->match_space);
     set_text(colour, "embedding", info->embedding);
     set(colour, "wrap_x", json_boolean(info->wrap_x));

@@ -51,7 +51,7 @@ is_there(const char *cage, const char *suffix, const char *hash)
 static bool
 tile_is_done(
     const char *cage, const osdtex_bake_options *options, long tile,
-    const char *hash)
+    const char *extension, const char *hash)
 {
     char suffix[SUFFIX_BYTES];
 
@@ -59,8 +59,13 @@ tile_is_done(
     {
         if (kind > 0 && !(options->extras & 1u << (kind - 1)))
             continue;
-        snprintf(suffix, sizeof suffix, "%s.%ld.exr", KINDS[kind], tile);
-        if (!is_there(cage, suffix, hash))
+        const bool is_png = kind == 0 && strcmp(extension, ".png") == 0;
+
+        snprintf(
+            suffix, sizeof suffix, "%s.%ld%s", KINDS[kind], tile,
+            kind == 0 ? extension : ".exr");
+        /* A PNG does not carry the hash. */
+        if (!is_there(cage, suffix, is_png ? NULL : hash))
             return false;
     }
     snprintf(suffix, sizeof suffix, ".%ld.png", tile);
@@ -71,7 +76,7 @@ tile_is_done(
 static bool
 tiles_are_done(
     const char *cage, const osdtex_bake_options *options, const char *line,
-    const char *hash)
+    const char *extension, const char *hash)
 {
     char *end;
     long tile = strtol(line, &end, 10);
@@ -79,7 +84,7 @@ tiles_are_done(
 
     for (; end != line; tile = strtol(line, &end, 10))
     {
-        if (!tile_is_done(cage, options, tile, hash))
+        if (!tile_is_done(cage, options, tile, extension, hash))
             return false;
         found = true;
         line = end;
@@ -90,7 +95,8 @@ tiles_are_done(
 /* The same for the comment at the head of the cage. */
 static bool
 named_tiles_are_done(
-    const char *cage, const osdtex_bake_options *options, const char *hash)
+    const char *cage, const osdtex_bake_options *options, const char *extension,
+    const char *hash)
 {
     static const char LEAD[] = "# " OTX_BAKE_OUTPUTS_TILES;
     FILE *file = fopen(cage, "rb");
@@ -102,7 +108,8 @@ named_tiles_are_done(
     {
         if (strncmp(line, LEAD, strlen(LEAD)) != 0)
             continue;
-        done = tiles_are_done(cage, options, line + strlen(LEAD), hash);
+        done =
+            tiles_are_done(cage, options, line + strlen(LEAD), extension, hash);
         break;
     }
     free(line);
@@ -113,7 +120,7 @@ named_tiles_are_done(
 
 bool
 otx_bake_outputs_are_done(
-    const char *cage, const osdtex_bake_options *options,
+    const char *cage, const osdtex_bake_options *options, const char *extension,
     const char hash[OSDTEX_HASH_BYTES])
 {
     return is_there(cage, "_cage.obj", options->udim ? NULL : hash) &&
@@ -121,8 +128,9 @@ otx_bake_outputs_are_done(
            is_there(cage, ".usda", options->udim ? NULL : hash) &&
            is_there(cage, ".mtlx", NULL) &&
            (!options->preview_png || is_there(cage, "_preview.mtl", NULL)) &&
-           (options->udim ? tile_is_done(cage, options, options->udim, hash)
-                          : named_tiles_are_done(cage, options, hash));
+           (options->udim
+                ? tile_is_done(cage, options, options->udim, extension, hash)
+                : named_tiles_are_done(cage, options, extension, hash));
 }
 
 /* ---- names ----------------------------------------------------------------

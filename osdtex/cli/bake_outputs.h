@@ -15,9 +15,10 @@
  * options->udim only the textures of that tile need be of this job: the others
  * are of tasks of their own.
  *
- *   cage  FOLDER/NAME_cage.obj; the others are beside it */
+ *   cage       FOLDER/NAME_cage.obj; the others are beside it
+ *   extension  of the colour's textures: ".exr" or ".png" */
 bool otx_bake_outputs_are_done(
-    const char *cage, const osdtex_bake_options *options,
+    const char *cage, const osdtex_bake_options *options, const char *extension,
     const char hash[OSDTEX_HASH_BYTES]);
 
 /* Adds the files that a bake writes: the texts, and those textures that are

@@ -179,6 +179,11 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"to", 0, OTX_FLAG_GROUP_COLOUR, "SPACE",
          "colour space of the textures that are written (default: role "
          "scene_linear, which is linear Rec.709 without a configuration)"},
+    [OTX_FLAG_RECEIVER] =
+        {"for", 0, OTX_FLAG_GROUP_COLOUR, "blender|maya|houdini|usd|web",
+         "the program that will read the textures: sets their colour space, "
+         "where --to does not, to what it takes a texture to be in by default, "
+         "and their type, which is 8-bit sRGB PNG for the web"},
     [OTX_FLAG_MATCH_SPACE] =
         {"match-space", 0, OTX_FLAG_GROUP_COLOUR, "SPACE",
          "display-like space in which colours are compared (default: role "

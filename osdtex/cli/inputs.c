@@ -17,6 +17,9 @@ static const char *const fvars[] = {
     "none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"};
 static const char *const embeddings[] = {"hsv", "hsv-cylinder", "lab", "rgb"};
 static const char *const wraps[] = {"auto", "no", "yes"};
+/* The first is the default, which has no word. */
+static const char *const receivers[] = {
+    "", "blender", "maya", "houdini", "usd", "web"};
 static const char *const tileables[] = {"auto", "keep", "make"};
 
 const char *
@@ -48,7 +51,7 @@ choose(
 
     if (!text)
         return true;
-    if (otx_value_word(text, words, count, &index))
+    if (text[0] && otx_value_word(text, words, count, &index))
     {
         *out = index;
         return true;
@@ -77,7 +80,8 @@ otx_inputs_exemplar(const otx_flag_values *values, osdtex_exemplar_options *out)
     out->match_space = values->text[OTX_FLAG_MATCH_SPACE];
     return choose(values, OTX_FLAG_MATCH_IN, embeddings, 4, &out->embedding) &&
            choose(values, OTX_FLAG_WRAP, wraps, 3, &out->wrap) &&
-           choose(values, OTX_FLAG_TILEABLE, tileables, 3, &out->tileable);
+           choose(values, OTX_FLAG_TILEABLE, tileables, 3, &out->tileable) &&
+           choose(values, OTX_FLAG_RECEIVER, receivers, 6, &out->receiver);
 }
 
 static size_t

@@ -26,16 +26,29 @@ name_beside(const char *obj, const char *suffix, char out[OTX_MAP_PATH_BYTES])
            OTX_MAP_PATH_BYTES;
 }
 
+/* What textures are: PNG for the web, unless --to names their space. */
+static const char *
+texture_extension(const otx_map_request *r)
+{
+    return r->exemplar_options.receiver == OSDTEX_RECEIVER_WEB &&
+                   !r->exemplar_options.to
+               ? ".png"
+               : ".exr";
+}
+
 /* NAME.exr, or of several exemplars NAME_1.exr and so on. */
 static bool
 name_textures(otx_map_request *r)
 {
-    char suffix[32] = ".exr";
+    const char *extension = texture_extension(r);
+    char suffix[32];
+
+    snprintf(suffix, sizeof suffix, "%s", extension);
 
     for (int k = 0; k <= r->also.count; ++k)
     {
         if (r->also.count > 0)
-            snprintf(suffix, sizeof suffix, "_%d.exr", k + 1);
+            snprintf(suffix, sizeof suffix, "_%d%s", k + 1, extension);
         if (!name_beside(r->mtl, suffix, r->exrs[k]))
             return false;
     }
@@ -228,6 +241,9 @@ otx_map_request_parse(
         !parse_numbers(r) || !parse_tile_level(r) || !parse_first_patch(r) ||
         !parse_fields(r))
         return false;
+    /* Then the textures are PNG themselves. */
+    if (strcmp(texture_extension(r), ".png") == 0)
+        r->bake_options.preview_png = 0;
     if (!is_picture(r->preview))
     {
         otx_session_refuse(
@@ -269,7 +285,8 @@ otx_map_request_is_done(
     return (!r->maps || (otx_up_to_date_check(r->obj, hash) &&
                          access(r->mtl, F_OK) == 0 && has_textures(r))) &&
            (!r->bakes ||
-            otx_bake_outputs_are_done(r->cage_obj, &r->bake_options, hash)) &&
+            otx_bake_outputs_are_done(
+                r->cage_obj, &r->bake_options, texture_extension(r), hash)) &&
            (!r->preview || access(r->preview, F_OK) == 0) &&
            (!r->report || access(r->report, F_OK) == 0);
 }

@@ -3,6 +3,7 @@
 
 #include "export/cage_model.h"
 #include "export/names.h"
+#include "export/texture_file.h"
 #include "file/exr.h"
 #include "file/mtl.h"
 #include "file/mtlx.h"
@@ -88,13 +89,19 @@ texture_name(const writer *w, const char *extension)
     return name_of(w, suffix);
 }
 
+static const char *
+color_name(const writer *w)
+{
+    return texture_name(w, otx_texture_file_extension(w->exemplars));
+}
+
 /* ---- textures --------------------------------------------------------------
  */
 
 /* Where blocks go: into the EXR, and those of one level into the preview. */
 typedef struct target
 {
-    otx_exr_writer *exr;
+    otx_exr_writer *exr;   /* NULL: nowhere but there */
     int32_t preview_level; /* -1 none */
     otx_image preview;
     otx_exr_chunk chunks[OTX_BAKE_SLOTS];
@@ -123,9 +130,10 @@ take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 
     if (block->level == t->preview_level)
         copy_block(t, block);
-    otx_exr_pack(
-        t->exr, lane, block->level, block->x, block->y, block->pixels,
-        block->stride, &t->chunks[slot]);
+    if (t->exr)
+        otx_exr_pack(
+            t->exr, lane, block->level, block->x, block->y, block->pixels,
+            block->stride, &t->chunks[slot]);
 }
 
 static otx_status
@@ -133,7 +141,8 @@ put(void *user, int32_t slot, int32_t level, int32_t x, int32_t y)
 {
     target *t = user;
 
-    return otx_exr_put(t->exr, level, x, y, &t->chunks[slot]);
+    return t->exr ? otx_exr_put(t->exr, level, x, y, &t->chunks[slot])
+                  : OSDTEX_OK;
 }
 
 /* Room for what is taken and not yet put. */
@@ -208,6 +217,27 @@ write_preview(const writer *w, int32_t tile, otx_image *image)
     return otx_png_file_write(w->run, w->set, path, image, 8);
 }
 
+/* Bakes the colour of one tile into an 8-bit PNG and nothing else. */
+static otx_status
+write_png_tile(const writer *w, otx_bake *bake, int32_t tile)
+{
+    const int32_t side = w->layout->side;
+    target t = {.preview_level = 0};
+    const otx_bake_sink sink = {take, put, &t};
+    char suffix[SUFFIX_BYTES];
+    const char *path;
+
+    tile_suffix(OTX_TEXEL_COLOR, w->layout->tiles[tile], ".png", suffix);
+    path = path_of(w, suffix);
+    if (!path)
+        return otx_fail_memory(w->run, STAGE);
+    OTX_TRY(otx_image_create(
+        w->run, w->run->scratch, side, side, bake->source.channels,
+        &t.preview));
+    OTX_TRY(otx_bake_tile(w->run, bake, tile, &sink));
+    return otx_texture_file_write_png(w->run, w->set, path, &t.preview);
+}
+
 /* Bakes one kind of one tile into its file. */
 static otx_status
 write_tile(const writer *w, otx_bake *bake, int32_t tile, bool preview)
@@ -251,6 +281,7 @@ static otx_status
 write_kind(const writer *w, otx_texel_kind kind)
 {
     const bool preview = kind == OTX_TEXEL_COLOR && w->options->colour;
+    const bool as_png = kind == OTX_TEXEL_COLOR && w->exemplars->as_png;
     const otx_bake_options options = {kind, w->options->seam_blend};
     otx_bake bake;
 
@@ -263,7 +294,8 @@ write_kind(const writer *w, otx_texel_kind kind)
 
         if (w->options->udim != 0 && w->layout->tiles[tile] != w->options->udim)
             continue;
-        status = write_tile(w, &bake, tile, preview);
+        status = as_png ? write_png_tile(w, &bake, tile)
+                        : write_tile(w, &bake, tile, preview);
         otx_arena_release(w->run->scratch, mark);
         OTX_TRY(status);
     }
@@ -363,7 +395,7 @@ write_cage(const writer *w)
     OTX_TRY(list_comments(w, &how.comments, &how.comment_count));
     OTX_TRY(otx_cage_model_obj(
         w->run, w->layout, path, library, w->names.stem, &obj));
-    OTX_TRY(write_mtl(w, "_cage.mtl", texture_name(w, ".exr"), &obj.materials));
+    OTX_TRY(write_mtl(w, "_cage.mtl", color_name(w), &obj.materials));
     if (w->options->colour)
         OTX_TRY(write_mtl(
             w, "_preview.mtl", texture_name(w, ".png"), &obj.materials));
@@ -381,8 +413,8 @@ write_usda(const writer *w)
     if (!path)
         return otx_fail_memory(w->run, STAGE);
     otx_cage_model_usda(w->layout, w->names.stem, &usda);
-    usda.texture = texture_name(w, ".exr");
-    usda.interop_id = w->exemplars->interop_id;
+    usda.texture = color_name(w);
+    usda.interop_id = otx_texture_file_interop_id(w->exemplars);
     if (!usda.texture)
         return otx_fail_memory(w->run, STAGE);
     OTX_TRY(list_comments(w, &usda.comments, &usda.comment_count));
@@ -395,7 +427,8 @@ write_mtlx(const writer *w)
 {
     const char *path = path_of(w, ".mtlx");
     const otx_mtlx mtlx = {
-        w->names.stem, texture_name(w, ".exr"), w->exemplars->interop_id};
+        w->names.stem, color_name(w),
+        otx_texture_file_interop_id(w->exemplars)};
     const char *temporary;
 
     if (!path || !mtlx.texture)
@@ -434,10 +467,33 @@ write_mesh(const writer *w)
     return otx_model_write(w->run, w->mapping, w->exemplars, &options, &files);
 }
 
+/* Readers that show a texture of several tiles wrongly unless they are told. */
+static void
+say_tiles(const writer *w)
+{
+    const otx_receiver receiver = w->exemplars->receiver;
+
+    if (w->layout->tile_count < 2)
+        return;
+    if (receiver == OTX_RECEIVER_BLENDER)
+        otx_note(
+            w->run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
+            "Blender's OBJ importer knows no UDIM tiles: load the cage with "
+            "osdtex_import.py, which makes them one tiled image");
+    if (receiver == OTX_RECEIVER_WEB)
+        otx_note(
+            w->run, OSDTEX_SEVERITY_WARNING, STAGE, OTX_NOWHERE,
+            "the bake has %" PRId32
+            " UDIM tiles, and web viewers show one: leave out "
+            "--texels-per-unit, or lower it",
+            w->layout->tile_count);
+}
+
 static otx_status
 write_files(const writer *w)
 {
     OTX_TRY(check_udim(w));
+    say_tiles(w);
     OTX_TRY(write_kind(w, OTX_TEXEL_COLOR));
     for (int32_t kind = 1; kind < OTX_TEXEL_KIND_COUNT; ++kind)
         if (w->options->extras[kind])

@@ -385,8 +385,9 @@ otx_model_write(
 
     *out = (otx_model_files){0};
     OTX_TRY(otx_names_derive(run, run->arena, options->path, &names));
-    OTX_TRY(
-        otx_names_number(run, run->arena, otx_source_count(mapping), &names));
+    OTX_TRY(otx_names_number(
+        run, run->arena, otx_source_count(mapping),
+        otx_texture_file_extension(exemplars), &names));
     status = describe_obj(run, mapping, &names, &obj, &materials);
     if (status == OSDTEX_OK)
         status = write_files(run, &names, &obj, &materials, exemplars, options);

@@ -93,15 +93,18 @@ otx_names_derive(
 
 otx_status
 otx_names_number(
-    otx_run *run, otx_arena *arena, int32_t count, otx_names *names)
+    otx_run *run, otx_arena *arena, int32_t count, const char *extension,
+    otx_names *names)
 {
     const size_t folder_bytes = strlen(names->mtl) - strlen(names->mtl_name);
 
-    for (int32_t k = 0; count > 1 && k < count; ++k)
+    for (int32_t k = 0; k < count; ++k)
     {
         char suffix[32];
 
-        snprintf(suffix, sizeof suffix, "_%d.exr", (int)k + 1);
+        snprintf(suffix, sizeof suffix, "%s", extension);
+        if (count > 1)
+            snprintf(suffix, sizeof suffix, "_%d%s", (int)k + 1, extension);
         names->textures[k] =
             join(arena, names->mtl, folder_bytes, names->stem, suffix);
         names->texture_names[k] = join(arena, "", 0, names->stem, suffix);

@@ -31,9 +31,10 @@ typedef struct otx_names
 otx_status otx_names_derive(
     otx_run *run, otx_arena *arena, const char *path, otx_names *out);
 
-/* Gives names of one exemplar the textures of `count`, up to
- * OTX_NAMES_TEXTURES. MEMORY. */
+/* Names the textures of `count` exemplars, up to OTX_NAMES_TEXTURES: NAME.exr,
+ * or NAME_1.exr and so on, with `extension` (".exr", ".png"). MEMORY. */
 otx_status otx_names_number(
-    otx_run *run, otx_arena *arena, int32_t count, otx_names *names);
+    otx_run *run, otx_arena *arena, int32_t count, const char *extension,
+    otx_names *names);
 
 #endif

@@ -2,8 +2,10 @@
 #include "export/texture_file.h"
 
 #include "file/exr.h"
+#include "file/png_file.h"
 #include "image/pyramid.h"
 
+#include <math.h>
 #include <string.h>
 
 /* What the header says about tiles. `exact` levels show the picture; the
@@ -48,6 +50,51 @@ separate_levels(
     return OSDTEX_OK;
 }
 
+const char *
+otx_texture_file_extension(const otx_exemplar *exemplar)
+{
+    return exemplar->as_png ? ".png" : ".exr";
+}
+
+const char *
+otx_texture_file_interop_id(const otx_exemplar *exemplar)
+{
+    return exemplar->as_png ? "srgb_rec709_scene" : exemplar->interop_id;
+}
+
+static void
+encode_texel(float *texel, int32_t channels)
+{
+    const float alpha = channels == 4 ? texel[3] : 1.0f;
+
+    for (int32_t k = 0; k < 3; ++k)
+    {
+        const float value = alpha > 0.0f ? texel[k] / alpha : 0.0f;
+
+        texel[k] = otx_embedding_encode(fminf(fmaxf(value, 0.0f), 1.0f));
+    }
+}
+
+otx_status
+otx_texture_file_write_png(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_image *image)
+{
+    const size_t texels = (size_t)image->width * (size_t)image->height;
+    const size_t channels = (size_t)image->channels;
+    otx_image encoded;
+
+    OTX_TRY(otx_image_create(
+        run, run->scratch, image->width, image->height, image->channels,
+        &encoded));
+    memcpy(
+        encoded.pixels, image->pixels,
+        texels * channels * sizeof *image->pixels);
+    for (size_t i = 0; i < texels; ++i)
+        encode_texel(encoded.pixels + i * channels, image->channels);
+    return otx_png_file_write(run, set, path, &encoded, 8);
+}
+
 otx_status
 otx_texture_file_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
@@ -56,6 +103,8 @@ otx_texture_file_write(
 {
     otx_exr_options options = otx_exr_options_default();
 
+    if (exemplar->as_png)
+        return otx_texture_file_write_png(run, set, path, image);
     options.tiled = true;
     options.has_chromaticities = exemplar->has_chromaticities;
     memcpy(

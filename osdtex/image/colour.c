@@ -79,6 +79,7 @@ otx_colour_open(
         return otx_fail_memory(run, stage);
     }
     out->config = config;
+    out->is_from_environment = out->path && !asked;
     otx_note(
         run, OSDTEX_SEVERITY_INFO, stage, OTX_NOWHERE, "configuration: %s (%s)",
         out->path ? out->path : "built in",

@@ -13,7 +13,8 @@
 typedef struct otx_colour
 {
     const otx_ocio *config;
-    const char *path; /* of the file; NULL for the one built in */
+    const char *path;         /* of the file; NULL for the one built in */
+    bool is_from_environment; /* `path` is that of $OCIO */
 } otx_colour;
 
 /* Opens the configuration `path` (--colorconfig), else `environment` (the

@@ -316,3 +316,14 @@ otx_colour_known_by_chromaticities(const otx_colour *colour, const float xy[8])
     }
     return NULL;
 }
+
+const char *
+otx_colour_known_by_id(const otx_colour *colour, const char *id)
+{
+    const known_space *known = known_by_name(id);
+    const char *space = known ? find_known(colour->config, known) : NULL;
+
+    return space || !known
+               ? space
+               : otx_colour_known_by_chromaticities(colour, known->xy);
+}

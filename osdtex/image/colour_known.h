@@ -9,6 +9,10 @@
  * same space. NULL where the configuration has none. */
 const char *otx_colour_known_tagged(const otx_colour *colour, const char *tag);
 
+/* The well-known linear space of this colorInteropID, by its usual names, else
+ * by its primaries; NULL where the configuration has none. */
+const char *otx_colour_known_by_id(const otx_colour *colour, const char *id);
+
 /* The first linear space that is found by one of its usual names. */
 const char *otx_colour_known_linear(const otx_colour *colour);
 

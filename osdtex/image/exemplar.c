@@ -33,6 +33,7 @@ typedef struct build
     otx_exemplar *out;
     const char *source_space;
     const char *linear_space;
+    bool as_png;
     const char *pixel_space; /* what `linear` is in, where --to is data */
     const char *work_space;  /* what `work` is in; not a matter of --to */
     const char *match_space; /* NULL: the work picture with the sRGB curve */
@@ -420,8 +421,12 @@ resolve_spaces(build *b)
             b->source_space);
         return OSDTEX_OK;
     }
-    OTX_TRY(otx_colour_resolve_linear(
-        b->run, b->colour, input->to, &b->linear_space));
+    otx_receiver_choice choice;
+
+    OTX_TRY(otx_receiver_resolve(
+        b->run, b->colour, input->receiver, input->to, &choice));
+    b->linear_space = choice.space;
+    b->as_png = choice.as_png;
     /* To data nothing is converted: the pixels stay in the input space. */
     b->pixel_space = otx_ocio_is_data(config, b->linear_space)
                          ? b->source_space
@@ -481,6 +486,8 @@ record(build *b)
     const char *match = b->match_space ? b->match_space : b->work_space;
 
     out->embedding = b->input->embedding;
+    out->receiver = b->input->receiver;
+    out->as_png = b->as_png;
     out->has_chromaticities = otx_colour_chromaticities(
         b->colour, b->linear_space, out->chromaticities);
     if (keep(b, b->input->source.path, &out->source_path) &&

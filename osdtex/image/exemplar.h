@@ -7,9 +7,9 @@
 #ifndef OTX_IMAGE_EXEMPLAR_H
 #define OTX_IMAGE_EXEMPLAR_H
 
-#include "image/colour.h"
 #include "image/embedding.h"
 #include "image/image.h"
+#include "image/receiver.h"
 #include "image/tile_layout.h"
 
 typedef struct otx_exemplar
@@ -34,6 +34,8 @@ typedef struct otx_exemplar
     bool has_chromaticities;
     float chromaticities[8]; /* of linear_space: R, G, B, W xy pairs */
     otx_embedding embedding; /* of `match` */
+    otx_receiver receiver;   /* for whom `linear` is written */
+    bool as_png;             /* and how, see otx_receiver_choice */
     otx_tile_layout tiles;   /* of a tiled texture; else `cell` is 0 */
 } otx_exemplar;
 
@@ -60,6 +62,7 @@ typedef struct otx_exemplar_input
     otx_colour_source source; /* what the file and --from say of its colours */
     const char *hash;         /* of the file's bytes, NULL unknown */
     const char *to;           /* --to, NULL role scene_linear */
+    otx_receiver receiver;    /* --for */
     const char *match_space;  /* --match-space, NULL role color_picking */
     otx_embedding embedding;
     otx_exemplar_wrap wrap;

@@ -80,7 +80,7 @@ class Mistakes(ProgramTest):
         self.map_refused("did you mean 'hierarchical'?", "--method", "hierarch")
         self.refused("no command 'xyzzy'", "xyzzy")
         self.refused("did you mean 'tiles'?", "help", "tile")
-        self.map_refused("it is for other commands", "--for", CAGE)
+        self.map_refused("it is for other commands", "--task", "0")
         self.map_refused("no option '--xyzzy'; see --help", "--xyzzy")
 
     def test_unknown_flags_and_missing_values(self):

@@ -3,6 +3,7 @@
 #include "file/mtl.h"
 #include "file/obj.h"
 #include "file/picture.h"
+#include "folder.h"
 #include "support.h"
 
 #include <stdlib.h>
@@ -123,7 +124,7 @@ static void
 tear_down(fixture *f)
 {
     static const char *const names[] = {
-        "m.obj", "m.mtl", "m.exr", "my m.obj", "my_m.mtl", "my_m.exr"};
+        "m.obj", "m.mtl", "m.exr", "m.png", "my m.obj", "my_m.mtl", "my_m.exr"};
 
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
         unlink(path_in(f, names[i]));
@@ -292,6 +293,34 @@ the_texture_is_the_exemplar_in_halves(void **state)
     tear_down(&f);
 }
 
+/* A PNG is the same colours with the sRGB curve, and the MTL names it. */
+static void
+the_texture_is_a_png_for_the_web(void **state)
+{
+    fixture f;
+    otx_picture picture;
+
+    (void)state;
+    set_up(&f);
+    f.exemplar.as_png = true;
+
+    const otx_model_files files = write_model(&f, "m.obj");
+
+    assert_int_equal(otx_picture_read(f.run, files.exr, &picture), OSDTEX_OK);
+    assert_int_equal(picture.kind, OTX_PICTURE_PNG);
+    assert_true(picture.says_srgb);
+    for (int32_t i = 0; i < 70 * 50 * 3; ++i)
+    {
+        const float value = fminf(f.exemplar.linear.pixels[i], 1.0f);
+        const float expected = otx_embedding_encode(value);
+
+        assert_true(
+            fabsf(picture.image.pixels[i] - expected) <= 0.5f / 255.0f + 1e-6f);
+    }
+    assert_non_null(strstr(test_read_text(f.run, files.mtl), "map_Kd m.png\n"));
+    tear_down(&f);
+}
+
 static void
 blanks_stay_in_the_obj_only(void **state)
 {
@@ -365,6 +394,7 @@ main(void)
         cmocka_unit_test(without_materials_there_is_one),
         cmocka_unit_test(holes_are_left_out),
         cmocka_unit_test(the_texture_is_the_exemplar_in_halves),
+        cmocka_unit_test(the_texture_is_a_png_for_the_web),
         cmocka_unit_test(blanks_stay_in_the_obj_only),
         cmocka_unit_test(a_failure_leaves_nothing),
         cmocka_unit_test(a_set_of_the_caller_is_left_to_it),
