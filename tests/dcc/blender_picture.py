@@ -2,115 +2,77 @@
 Cycles, and compare with a picture of osdtex.
 
     blender -b --factory-startup --python blender_picture.py -- \
-        MODEL.obj TEXTURE.exr PICTURE.exr UV_SMOOTH LEVEL X,Y,Z,TX,TY,TZ,FOV
+        MODEL.obj PICTURE.exr UV_SMOOTH LEVEL X,Y,Z,TX,TY,TZ,FOV
 
-A level above 0 subdivides with the modifier. TEXTURE `-` shows the picture that
-the importer itself loaded by way of the MTL.
+At level 0 the model is what the importer makes of it. Above, it is a baked cage
+and loaded by tools/dcc/blender/osdtex_import.py, with another rule for UVs
+unless UV_SMOOTH is `-`. Textures are taken as Blender loads them: nothing is
+said about their colours.
 
-Prints `model FACES VERTICES UVS IMAGE WIDTH HEIGHT FLOAT` and `difference MEAN
-P99 MAX of PIXELS`.
+Prints `model FACES VERTICES UVS`, `image NAME WIDTH HEIGHT FLOAT SOURCE SPACE`
+and `difference MEAN P99 MAX DELTA_E of PIXELS`; Delta E is the mean distance in
+CIELAB (1976).
 """
 
 import math
 import sys
+from pathlib import Path
 
 import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-CAGE, TEXTURE, PICTURE, UV_SMOOTH, LEVEL, CAMERA = sys.argv[
-    sys.argv.index("--") + 1 :
-]
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "tools/dcc/blender"))
+
+import osdtex_import  # noqa: E402
+
+MODEL, PICTURE, UV_SMOOTH, LEVEL, CAMERA = sys.argv[sys.argv.index("--") + 1 :]
 WIDTH, HEIGHT = 320, 240
 
 
-def tags():
-    for line in open(CAGE):
-        words = line.split()
-        if words[:2] == ["t", "crease"]:
-            yield (int(words[3]), int(words[4])), float(words[5])
-        if words[:2] == ["t", "corner"]:
-            yield (int(words[3]),), float(words[4])
-
-
-def import_cage():
-    # The axes as they are.
-    bpy.ops.wm.obj_import(filepath=CAGE, forward_axis="Y", up_axis="Z")
+def import_model():
+    """The axes as they are."""
+    if int(LEVEL) > 0:
+        part = osdtex_import.load(MODEL, int(LEVEL), "Y", "Z")
+        if UV_SMOOTH != "-":
+            part.modifiers[0].uv_smooth = UV_SMOOTH
+        return part
+    bpy.ops.wm.obj_import(filepath=MODEL, forward_axis="Y", up_axis="Z")
     parts = [o for o in bpy.context.selected_objects if o.type == "MESH"]
     assert len(parts) == 1, "one object is expected"
     return parts[0]
 
 
-def set_creases(mesh):
-    """OBJ readers lose them. Blender squares what it is given, times ten."""
-    edges = {tuple(sorted(e.vertices)): e for e in mesh.edges}
-    sharp = {key: s for key, s in tags()}
-    corners = [key for key in sharp if len(key) == 1]
-    layer = None
-    if corners:
-        mesh.vertex_creases.new()
-        layer = mesh.vertex_creases[0].data
-    for key, sharpness in sharp.items():
-        crease = math.sqrt(min(sharpness, 10.0) / 10.0)
-        if len(key) == 2:
-            edges[tuple(sorted(key))].crease = crease
-        else:
-            layer[key[0]].value = crease
-
-
-def subdivide(cage):
-    modifier = cage.modifiers.new("subdivision", "SUBSURF")
-    modifier.levels = modifier.render_levels = int(LEVEL)
-    modifier.quality = 6
-    modifier.uv_smooth = UV_SMOOTH
-    modifier.boundary_smooth = "PRESERVE_CORNERS"
-    modifier.use_limit_surface = True
-    modifier.use_creases = True
-
-
-def picture_of(mesh):
-    if TEXTURE != "-":
-        return bpy.data.images.load(TEXTURE)
-    found = [
-        node.image
-        for material in mesh.materials
-        for node in material.node_tree.nodes
-        if node.type == "TEX_IMAGE" and node.image
-    ]
-    assert len(set(found)) == 1, "one picture is expected"
-    return found[0]
-
-
-def describe(mesh, image):
+def describe(mesh):
     """What came in; UVS is a sum over all corners, which no order changes."""
     uvs = np.empty(2 * len(mesh.loops), np.float32)
     mesh.uv_layers.active.data.foreach_get("uv", uvs)
     print(
-        "model %d %d %.6f %s %d %d %d"
+        "model %d %d %.6f"
         % (
             len(mesh.polygons), len(mesh.vertices), uvs.sum(dtype=np.float64),
-            image.name, image.size[0], image.size[1], image.is_float,
         )
     )
 
 
-def show_texture(mesh):
-    material = bpy.data.materials.new("baked")
-    material.use_nodes = True
-    tree = material.node_tree
-    tree.nodes.clear()
-    output = tree.nodes.new("ShaderNodeOutputMaterial")
-    light = tree.nodes.new("ShaderNodeEmission")
-    texture = tree.nodes.new("ShaderNodeTexImage")
-    texture.image = picture_of(mesh)
-    # The numbers as they are: both pictures stay in the bake's space.
-    texture.image.colorspace_settings.name = "Non-Color"
-    texture.extension = "REPEAT" if TEXTURE == "-" else "EXTEND"
-    describe(mesh, texture.image)
-    tree.links.new(texture.outputs["Color"], light.inputs["Color"])
-    tree.links.new(light.outputs[0], output.inputs["Surface"])
-    mesh.materials.clear()
-    mesh.materials.append(material)
+def glow(mesh):
+    """The texture without light on it: its node stays as it was imported."""
+    for material in mesh.materials:
+        tree = material.node_tree
+        texture = next(n for n in tree.nodes if n.type == "TEX_IMAGE")
+        output = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
+        light = tree.nodes.new("ShaderNodeEmission")
+        tree.links.new(texture.outputs["Color"], light.inputs["Color"])
+        tree.links.new(light.outputs[0], output.inputs["Surface"])
+        image = texture.image
+        print(
+            "image %s %d %d %d %s %s"
+            % (
+                image.name.replace(" ", "_"), image.size[0], image.size[1],
+                image.is_float, image.source, image.colorspace_settings.name,
+            )
+        )
 
 
 def set_camera():
@@ -151,6 +113,7 @@ def render(path):
 
 
 def pixels(path):
+    """The numbers of a picture, both of which are linear Rec.709."""
     image = bpy.data.images.load(path)
     image.colorspace_settings.name = "Non-Color"
     out = np.empty(WIDTH * HEIGHT * 4, np.float32)
@@ -168,22 +131,34 @@ def inside(alpha):
     return out
 
 
+def lab(rgb):
+    """CIELAB of linear Rec.709, white D65."""
+    to_xyz = np.array([
+        [0.4123908, 0.3575843, 0.1804808], [0.2126390, 0.7151687, 0.0721923],
+        [0.0193308, 0.1191948, 0.9505322]])
+    t = rgb.clip(0, None) @ to_xyz.T / to_xyz.sum(axis=1)
+    f = np.where(t > (6 / 29) ** 3, np.cbrt(t), t / (3 * (6 / 29) ** 2) + 4 / 29)
+    return np.stack([
+        116 * f[..., 1] - 16, 500 * (f[..., 0] - f[..., 1]),
+        200 * (f[..., 1] - f[..., 2])], axis=-1)
+
+
 def main():
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    cage = import_cage()
-    if int(LEVEL) > 0:
-        set_creases(cage.data)
-        subdivide(cage)
-    show_texture(cage.data)
+    part = import_model()
+    describe(part.data)
+    glow(part.data)
     set_camera()
     path = PICTURE[:-4] + "_cycles.exr"
     render(path)
     ours, theirs = pixels(PICTURE), pixels(path)
     mask = inside(theirs[..., 3])
-    d = np.abs(ours - theirs)[..., :3].max(axis=2)[mask]
+    ours, theirs = ours[mask][:, :3], theirs[mask][:, :3]
+    d = np.abs(ours - theirs).max(axis=1)
+    e = np.linalg.norm(lab(ours) - lab(theirs), axis=1)
     print(
-        "difference %.5f %.5f %.5f of %d"
-        % (d.mean(), np.percentile(d, 99), d.max(), mask.sum())
+        "difference %.5f %.5f %.5f %.4f of %d"
+        % (d.mean(), np.percentile(d, 99), d.max(), e.mean(), mask.sum())
     )
 
 

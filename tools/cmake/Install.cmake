@@ -43,3 +43,5 @@ set(OSDTEX_EXPORTS ${PROJECT_SOURCE_DIR}/tools/cmake/exports.map)
 target_link_options(osdtex_shared PRIVATE
   -Wl,--version-script=${OSDTEX_EXPORTS})
 set_target_properties(osdtex_shared PROPERTIES LINK_DEPENDS ${OSDTEX_EXPORTS})
+install(FILES tools/dcc/blender/osdtex_import.py
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex/blender)
