@@ -57,6 +57,9 @@ osdtex_bake_options_default(void)
     options.resolution = 4096;
     return options;
 }
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void
+osdtex_bake_options_init(osdtex_bake_options *out, size_t bytes);
 
 /* Bakes a mapping into textures of the cage: NAME_cage.obj and NAME_cage.mtl,
  * NAME.<UDIM>.exr (1001 for the unit square), NAME.usda and NAME.mtlx, all or

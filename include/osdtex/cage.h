@@ -66,6 +66,9 @@ osdtex_cage_options_default(void)
     options.fvar = OSDTEX_UNSET;
     return options;
 }
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void
+osdtex_cage_options_init(osdtex_cage_options *out, size_t bytes);
 
 /* A cage as arrays. They are copied. */
 typedef struct osdtex_cage_arrays
@@ -98,6 +101,8 @@ osdtex_cage_arrays_none(void)
     arrays.size = sizeof arrays;
     return arrays;
 }
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void osdtex_cage_arrays_init(osdtex_cage_arrays *out, size_t bytes);
 
 typedef struct osdtex_cage_info
 {

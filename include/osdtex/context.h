@@ -63,6 +63,9 @@ osdtex_context_options_default(void)
     options.size = sizeof options;
     return options;
 }
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void
+osdtex_context_options_init(osdtex_context_options *out, size_t bytes);
 
 /* ARGUMENT (threads below 0 or above 256), MEMORY. */
 OSDTEX_API osdtex_status osdtex_context_create(

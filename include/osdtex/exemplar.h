@@ -78,6 +78,9 @@ osdtex_exemplar_options_default(void)
     options.tileable = OSDTEX_TILEABLE_KEEP;
     return options;
 }
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void
+osdtex_exemplar_options_init(osdtex_exemplar_options *out, size_t bytes);
 
 typedef struct osdtex_exemplar_info
 {

@@ -32,6 +32,9 @@ osdtex_field_options_default(void)
     options.size = sizeof options;
     return options;
 }
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void
+osdtex_field_options_init(osdtex_field_options *out, size_t bytes);
 
 /* Where a field has no direction: going round the vertex it turns by 2 pi times
  * the index. */
@@ -71,6 +74,10 @@ typedef struct osdtex_constraint
     double direction[3]; /* scene axes; 0: not asked */
     double scale;        /* factor on the size, 1/16 .. 16; 0: not asked */
     double material;     /* 0 .. 1 */
+    /* Of several exemplars the one to be shown, from 1; 0: not asked. Mappings
+     * read it, fields do not. */
+    int32_t exemplar;
+    int32_t reserved;
 } osdtex_constraint;
 
 static inline osdtex_constraint
@@ -82,6 +89,8 @@ osdtex_constraint_none(void)
     constraint.face = -1;
     return constraint;
 }
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void osdtex_constraint_init(osdtex_constraint *out, size_t bytes);
 
 /* ARGUMENT (a constraint that cannot be held, with its number), FORMAT, IO,
  * NUMERIC, MEMORY, CANCELLED. */

@@ -3,6 +3,7 @@
 #define OSDTEX_MAPPING_H
 
 #include <osdtex/exemplar.h>
+#include <osdtex/field.h>
 #include <osdtex/method.h>
 #include <osdtex/surface.h>
 
@@ -66,6 +67,19 @@ typedef struct osdtex_map_options
     /* [face_count of the cage] 0 the first exemplar, 1 the second, and so on;
      * NULL none. */
     const uint8_t *face_exemplars;
+    /* The same as `mask`, from memory: RGB or RGBA on the unit square of the
+     * cage's UVs. Copied from while the call lasts. NULL none. */
+    const osdtex_image *mask_image;
+    /* More constraints, after those of the file. */
+    const osdtex_constraint *constraint_items; /* [constraint_count] */
+    int32_t constraint_count;
+    /* Refinement of the cage, 0 .. OSDTEX_LEVEL_MAX, or OSDTEX_LEVEL_AUTO: as
+     * the exemplar's texels ask for. */
+    int32_t level;
+    /* The cage as it was refined before, for hosts that look at the surface or
+     * map it several times; `level` then says nothing. NULL: it is refined by
+     * the call. */
+    const osdtex_surface *surface;
 } osdtex_map_options;
 
 static inline osdtex_map_options
@@ -78,8 +92,11 @@ osdtex_map_options_default(void)
     options.first_u = 0.5;
     options.first_v = 0.5;
     options.seed = 1;
+    options.level = OSDTEX_LEVEL_AUTO;
     return options;
 }
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void osdtex_map_options_init(osdtex_map_options *out, size_t bytes);
 
 typedef struct osdtex_mapping_info
 {
@@ -95,16 +112,32 @@ typedef struct osdtex_mapping_info
                                     * from, 0 the first; NULL: all are */
 } osdtex_mapping_info;
 
-/* ARGUMENT (with near names), LIMIT, NUMERIC, MEMORY, CANCELLED; of several
+/* Covers a cage with an exemplar: the whole of osdtex in one call.
+ *
+ *     osdtex_map(context, cage, exemplar, NULL, &mapping);
+ *
+ *   cage      to be covered; NULL only where options->surface is given
+ *   exemplar  what covers it
+ *   options   NULL: the defaults, which show the picture five times across the
+ *             cage and refine until leaf edges are about 14 texels long
+ *
+ * Takes seconds for tens of thousands of leaf faces, on all threads of the
+ * context; the same inputs give the same mapping whatever their number. Calls
+ * the context's progress about once in a hundredth of the way.
+ *
+ * ARGUMENT (with near names), LIMIT, NUMERIC, MEMORY, CANCELLED; of several
  * exemplars also FORMAT and IO (of a mask) and SUPPORT (a method that takes
  * one). INTERNAL when what the method returned is no mapping: there is none
  * then, and the fault is the library's. */
 OSDTEX_API osdtex_status osdtex_map(
-    osdtex_context *context, const osdtex_surface *surface,
+    osdtex_context *context, const osdtex_cage *cage,
     const osdtex_exemplar *exemplar, const osdtex_map_options *options,
     osdtex_mapping **out);
 OSDTEX_API const osdtex_mapping_info *
 osdtex_mapping_describe(const osdtex_mapping *mapping);
+/* The surface whose faces the mapping is of, lent. NULL for NULL. */
+OSDTEX_API const osdtex_surface *
+osdtex_mapping_surface(const osdtex_mapping *mapping);
 
 typedef struct osdtex_write_options
 {
@@ -122,6 +155,9 @@ osdtex_write_options_default(void)
     options.size = sizeof options;
     return options;
 }
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void
+osdtex_write_options_init(osdtex_write_options *out, size_t bytes);
 
 /* Writes NAME.obj (`path`), NAME.mtl and NAME.exr, all or none of them. Of
  * several exemplars NAME_1.exr, NAME_2.exr and so on, each with materials of

@@ -4,16 +4,16 @@
  * The pipe, one call a stage:
  *
  *     osdtex_cage_read       the artist's cage, validated (cage.h)
- *     osdtex_surface_refine  its hierarchy down to the limit (surface.h)
  *     osdtex_exemplar_read   the picture of a material, colours resolved
  *                            (exemplar.h)
- *     osdtex_map             a mapping: UVs into the exemplar for every face
- *                            (mapping.h)
+ *     osdtex_map             a mapping: the cage refined, and UVs into the
+ *                            exemplar for every face (mapping.h)
  *     osdtex_mapping_write   OBJ + MTL + EXR that load in the DCC (mapping.h)
  *     osdtex_bake            the cage with textures on its UVs (bake.h)
  *     osdtex_render          a picture of the result (render.h)
  *
- * and beside it memory, threads and findings (context.h), directions that a
+ * and beside it memory, threads and findings (context.h), the refined surface
+ * for hosts that look at it (surface.h), directions that a
  * texture follows (field.h), the methods and their settings (method.h), tiled
  * textures (tiles.h), pixels (image.h) and what files depend on (files.h).
  *
@@ -31,7 +31,9 @@
  * caller has destroyed the handle itself. Destroying NULL is fine.
  *
  * Structs that open with `size` may grow at their end in later versions; get
- * one from its `*_default` or `*_none` function, which sets `size`. Structs
+ * one from its `*_default` or `*_none` function, which sets `size`. Hosts in
+ * other languages call `*_init` with the bytes of the struct as they know it:
+ * it gets the defaults, and what this library does not know is zeroed. Structs
  * that a `*_describe` lends may grow too; all others are final. NULL for
  * options means the defaults.
  *

@@ -62,6 +62,9 @@ osdtex_render_options_default(void)
     options.samples = 4;
     return options;
 }
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void
+osdtex_render_options_init(osdtex_render_options *out, size_t bytes);
 
 /* Renders into an RGBA image, scene-linear. ARGUMENT, NUMERIC, MEMORY,
  * CANCELLED. */

@@ -20,7 +20,8 @@ typedef struct osdtex_surface_options
     int32_t level; /* 0 .. OSDTEX_LEVEL_MAX, or OSDTEX_LEVEL_AUTO */
     int32_t reserved;
     /* Scene units that leaf edges are to come to, for OSDTEX_LEVEL_AUTO: see
-     * osdtex_exemplar_leaf_edge. */
+     * osdtex_exemplar_leaf_edge. 0: a 48th of osdtex_cage_info.default_scale,
+     * which suits exemplars of up to 672 texels at the default scale. */
     double leaf_edge;
 } osdtex_surface_options;
 
@@ -33,6 +34,9 @@ osdtex_surface_options_default(void)
     options.level = OSDTEX_LEVEL_AUTO;
     return options;
 }
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void
+osdtex_surface_options_init(osdtex_surface_options *out, size_t bytes);
 
 /* The leaf level, on the limit surface. Leaf faces are in the order of the
  * cage's faces; the cage's vertices come first. */

@@ -56,6 +56,9 @@ osdtex_tiles_options_default(void)
     options.seed = 1;
     return options;
 }
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void
+osdtex_tiles_options_init(osdtex_tiles_options *out, size_t bytes);
 
 typedef struct osdtex_tiles_info
 {

@@ -202,44 +202,6 @@ osdtex_field_create(
 
 /* -- editing ------------------------------------------------------------- */
 
-static otx_vec3
-vector(const double v[3])
-{
-    return (otx_vec3){v[0], v[1], v[2]};
-}
-
-/* The items of `from` and one more. */
-static otx_status
-add_item(
-    otx_run *run, const otx_constraint_set *from,
-    const osdtex_constraint *constraint, otx_constraint_set *out)
-{
-    otx_constraint *items =
-        OTX_NEW(run->arena, otx_constraint, (size_t)from->count + 1);
-    const otx_vec3 direction = vector(constraint->direction);
-
-    if (!items)
-        return otx_fail_memory(run, "field");
-    if (from->count > 0)
-        memcpy(items, from->items, (size_t)from->count * sizeof *items);
-    items[from->count] = (otx_constraint){
-        .face = constraint->face,
-        .point = vector(constraint->point),
-        .radius = constraint->radius,
-        .has_direction = otx_vec3_length(direction) != 0.0,
-        .direction = direction,
-        .scale = constraint->scale,
-        .has_material = constraint->has_material != 0,
-        .material = constraint->material,
-    };
-    *out = *from;
-    out->path = NULL;
-    out->is_table = false;
-    out->items = items;
-    out->count = from->count + 1;
-    return OSDTEX_OK;
-}
-
 /* Vertices all of whose faces are free. */
 static otx_status
 free_vertices(
@@ -322,7 +284,6 @@ edit(
     otx_run *run, const osdtex_field *field,
     const osdtex_constraint *constraint, double reach, osdtex_field **out)
 {
-    osdtex_constraint ours = osdtex_constraint_none();
     otx_direction_request pins;
     const otx_constraint *item;
     uint8_t *faces;
@@ -333,10 +294,9 @@ edit(
             run, OSDTEX_ERROR_ARGUMENT, "field", OTX_NOWHERE,
             "no field or no constraint is given, or its reach is negative or "
             "not a number");
-    OTX_TRY(otx_call_options(run, &ours, sizeof ours, constraint));
     OTX_TRY(begin(run, field->surface, &h));
     OTX_TRY(copy_fields(run, field, h));
-    OTX_TRY(add_item(run, &field->set, &ours, &h->set));
+    OTX_TRY(otx_map_input_add(run, &field->set, constraint, 1, &h->set));
     item = &h->set.items[h->set.count - 1];
     if (!item->has_direction && item->scale == 0.0 && !item->has_material)
         return otx_fail(

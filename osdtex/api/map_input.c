@@ -1,6 +1,7 @@
 /* map_input.c -- what a user says about fields and the exemplar, checked. */
 #include "api/map_input.h"
 
+#include "api/call.h"
 #include "bridge/charconv.h"
 #include "file/constraint_file.h"
 
@@ -98,6 +99,78 @@ otx_map_input_constraints(
         OTX_TRY(read_file(run, path, set));
     *out = set;
     return follow ? read_follow(run, follow, set) : OSDTEX_OK;
+}
+
+static otx_constraint
+constraint_of(const osdtex_constraint *theirs)
+{
+    const otx_vec3 direction = vector(theirs->direction);
+
+    return (otx_constraint){
+        .face = theirs->face,
+        .point = vector(theirs->point),
+        .radius = theirs->radius,
+        .has_direction = otx_vec3_length(direction) != 0.0,
+        .direction = direction,
+        .scale = theirs->scale,
+        .has_material = theirs->has_material != 0,
+        .material = theirs->material,
+        .exemplar = theirs->exemplar,
+    };
+}
+
+otx_status
+otx_map_input_add(
+    otx_run *run, const otx_constraint_set *from,
+    const osdtex_constraint *items, int32_t count, otx_constraint_set *out)
+{
+    const otx_constraint_set none = {.axis = {0, 1, 0}};
+    const int32_t had = from ? from->count : 0;
+    otx_constraint *all =
+        OTX_NEW(run->arena, otx_constraint, (size_t)had + (size_t)count);
+
+    if (!all)
+        return otx_fail_memory(run, "constraints");
+    if (had > 0)
+        memcpy(all, from->items, (size_t)had * sizeof *all);
+    for (int32_t i = 0; i < count; ++i)
+    {
+        const char *at = (const char *)items + (size_t)i * items->size;
+        osdtex_constraint ours = osdtex_constraint_none();
+
+        OTX_TRY(otx_call_options(run, &ours, sizeof ours, at));
+        all[had + i] = constraint_of(&ours);
+    }
+    *out = from ? *from : none;
+    out->path = NULL;
+    out->is_table = false;
+    out->items = all;
+    out->count = had + count;
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_map_input_options(
+    otx_run *run, const osdtex_map_options *options,
+    const otx_constraint_set **out)
+{
+    otx_constraint_set *set;
+
+    OTX_TRY(otx_map_input_constraints(
+        run, options->constraints, options->follow, out));
+    if (options->constraint_count == 0)
+        return OSDTEX_OK;
+    if (options->constraint_count < 0 || !options->constraint_items)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "constraints", OTX_NOWHERE,
+            "the count of constraints is negative, or there is no array");
+    set = OTX_ZNEW(run->arena, otx_constraint_set, 1);
+    if (!set)
+        return otx_fail_memory(run, "constraints");
+    OTX_TRY(otx_map_input_add(
+        run, *out, options->constraint_items, options->constraint_count, set));
+    *out = set;
+    return OSDTEX_OK;
 }
 
 static otx_status

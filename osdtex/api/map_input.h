@@ -13,6 +13,21 @@ otx_status otx_map_input_constraints(
     otx_run *run, const char *path, const char *follow,
     const otx_constraint_set **out);
 
+/* A set with constraints of the host after its own.
+ *
+ *   from   NULL: there is nothing yet
+ *   items  [count], each as long as the size of the first says
+ *
+ * ARGUMENT (an array that is missing, a size that is not set). */
+otx_status otx_map_input_add(
+    otx_run *run, const otx_constraint_set *from,
+    const osdtex_constraint *items, int32_t count, otx_constraint_set *out);
+
+/* All that options say of constraints; `*out` is NULL when that is nothing. */
+otx_status otx_map_input_options(
+    otx_run *run, const osdtex_map_options *options,
+    const otx_constraint_set **out);
+
 /* What the user takes the exemplar for; `*out` is NULL when he says nothing.
  * ARGUMENT for a class that is not known, and for generators that span no
  * cell. */

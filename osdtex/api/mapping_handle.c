@@ -96,32 +96,61 @@ info_of(const osdtex_mapping *handle)
     };
 }
 
+/* The host's surface, or one that is refined for the exemplar's texels and
+ * lives as long as the mapping. */
 static otx_status
-map(otx_run *run, const osdtex_surface *surface,
-    const osdtex_exemplar *exemplar, const osdtex_map_options *options,
-    osdtex_mapping **out)
+choose_surface(
+    otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
+    const osdtex_map_options *options, const osdtex_surface **out)
 {
+    osdtex_surface_options refine = osdtex_surface_options_default();
+    osdtex_surface *surface;
+    otx_status status;
+
+    *out = options->surface;
+    if (options->surface && (!cage || options->surface->cage == cage))
+        return otx_call_hold(&call->run, options->surface->arena);
+    if (options->surface || !cage)
+        return otx_fail(
+            &call->run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
+            "no cage is given, or the surface is of another one");
+    refine.level = options->level;
+    refine.leaf_edge = osdtex_exemplar_leaf_edge(
+        exemplar,
+        options->scale > 0.0 ? options->scale : cage->info.default_scale);
+    OTX_TRY(osdtex_surface_refine(call->context, cage, &refine, &surface));
+    status = otx_call_hold(&call->run, surface->arena);
+    osdtex_surface_destroy(surface);
+    *out = surface;
+    return status;
+}
+
+static otx_status
+map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
+    const osdtex_map_options *options, osdtex_mapping **out)
+{
+    otx_run *run = &call->run;
+    const osdtex_surface *surface;
     osdtex_map_options ours = osdtex_map_options_default();
     osdtex_mapping *handle = OTX_ZNEW(run->arena, osdtex_mapping, 1);
 
     if (!handle)
         return otx_fail_memory(run, "map");
     OTX_TRY(otx_call_options(run, &ours, sizeof ours, options));
-    if (!surface || !exemplar || (ours.setting_count > 0 && !ours.settings) ||
+    if (!exemplar || (ours.setting_count > 0 && !ours.settings) ||
         ours.setting_count < 0)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
-            "no surface, no exemplar, or no settings are given");
+            "no exemplar or no settings are given");
+    OTX_TRY(choose_surface(call, cage, exemplar, &ours, &surface));
     handle->arena = run->arena;
     handle->surface = surface;
     handle->exemplar = exemplar;
     handle->seed = ours.seed;
-    OTX_TRY(otx_call_hold(run, surface->arena));
     OTX_TRY(otx_call_hold(run, exemplar->arena));
     OTX_TRY(
         choose_request(run, surface, &exemplar->info, &ours, &handle->request));
-    OTX_TRY(otx_map_input_constraints(
-        run, ours.constraints, ours.follow, &handle->request.constraints));
+    OTX_TRY(otx_map_input_options(run, &ours, &handle->request.constraints));
     OTX_TRY(otx_several_take(run, &ours, handle));
     OTX_TRY(otx_map_input_analysis(
         run, &ours, &exemplar->exemplar, &handle->request.analysis));
@@ -140,7 +169,7 @@ map(otx_run *run, const osdtex_surface *surface,
 
 osdtex_status
 osdtex_map(
-    osdtex_context *context, const osdtex_surface *surface,
+    osdtex_context *context, const osdtex_cage *cage,
     const osdtex_exemplar *exemplar, const osdtex_map_options *options,
     osdtex_mapping **out)
 {
@@ -150,14 +179,19 @@ osdtex_map(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "map", &call));
-    return otx_call_end(
-        &call, map(&call.run, surface, exemplar, options, out), out);
+    return otx_call_end(&call, map(&call, cage, exemplar, options, out), out);
 }
 
 const osdtex_mapping_info *
 osdtex_mapping_describe(const osdtex_mapping *mapping)
 {
     return mapping ? &mapping->info : NULL;
+}
+
+const osdtex_surface *
+osdtex_mapping_surface(const osdtex_mapping *mapping)
+{
+    return mapping ? mapping->surface : NULL;
 }
 
 void

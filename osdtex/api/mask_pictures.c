@@ -102,3 +102,18 @@ otx_mask_pictures_take(
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }
+
+otx_status
+otx_mask_pictures_take_image(
+    otx_run *run, const otx_surface *surface, const otx_image *image,
+    int32_t count, uint8_t *demand)
+{
+    const otx_demand_mask mask = {.image = image, .path = "a mask in memory"};
+
+    if (image->channels < 3)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "a mask in memory has red, green and blue, not %d channels",
+            (int)image->channels);
+    return otx_demand_picture(run, surface, &mask, count, demand);
+}

@@ -2,6 +2,7 @@
 #ifndef OTX_API_MASK_PICTURES_H
 #define OTX_API_MASK_PICTURES_H
 
+#include "image/image.h"
 #include "surface/surface.h"
 
 /* Writes what a mask asks for into `demand`, as otx_demand_picture. One picture
@@ -16,5 +17,10 @@
 otx_status otx_mask_pictures_take(
     otx_run *run, const otx_surface *surface, const char *path, int32_t count,
     uint8_t *demand);
+
+/* The same by a picture in memory, of 3 or 4 channels. ARGUMENT, MEMORY. */
+otx_status otx_mask_pictures_take_image(
+    otx_run *run, const otx_surface *surface, const otx_image *image,
+    int32_t count, uint8_t *demand);
 
 #endif

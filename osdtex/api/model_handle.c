@@ -488,8 +488,7 @@ osdtex_model_join_field(
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "model", &call));
-    return otx_call_end(
-        &call, join_field(&call.run, model, field, out), out);
+    return otx_call_end(&call, join_field(&call.run, model, field, out), out);
 }
 
 void

@@ -65,7 +65,8 @@ check(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "%d exemplars are given; a mapping takes up to %d",
             (int)options->also_count + 1, OTX_EXEMPLARS_MAX);
-    if (options->also_count == 0 && (options->mask || options->face_exemplars))
+    if (options->also_count == 0 &&
+        (options->mask || options->mask_image || options->face_exemplars))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "a mask divides the surface between exemplars, and one is given; "
@@ -143,14 +144,18 @@ collect(
     const otx_surface *surface = &handle->surface->surface;
     const otx_constraint_set *constraints = handle->request.constraints;
 
-    *said =
-        options->mask || options->face_exemplars || otx_demand_in(constraints);
+    *said = options->mask || options->mask_image || options->face_exemplars ||
+            otx_demand_in(constraints);
     if (otx_demand_in(constraints))
         OTX_TRY(otx_demand_constraints(
             run, surface, constraints, handle->source_count, demand));
     if (options->mask)
         OTX_TRY(otx_mask_pictures_take(
             run, surface, options->mask, handle->source_count, demand));
+    if (options->mask_image)
+        OTX_TRY(otx_mask_pictures_take_image(
+            run, surface, &options->mask_image->image, handle->source_count,
+            demand));
     if (options->face_exemplars)
         OTX_TRY(otx_demand_faces(
             run, surface, options->face_exemplars, handle->source_count,

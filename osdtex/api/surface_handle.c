@@ -8,6 +8,10 @@
  * what is in a picture. */
 #define COARSE 3.0
 
+/* Leaf edges across an exemplar of the default scale: at 14 texels an edge, a
+ * picture 672 texels wide. */
+#define LEAVES_ACROSS 48.0
+
 static void
 note_level(otx_run *run, const osdtex_cage *cage, double wanted, int32_t level)
 {
@@ -36,6 +40,8 @@ choose_level(
     otx_run *run, const osdtex_cage *cage,
     const osdtex_surface_options *options, int32_t *level)
 {
+    double wanted;
+
     *level = options->level;
     if (options->level >= 0 && options->level <= OSDTEX_LEVEL_MAX)
         return OSDTEX_OK;
@@ -44,12 +50,17 @@ choose_level(
             run, OSDTEX_ERROR_ARGUMENT, "surface", OTX_NOWHERE,
             "the level is from 0 to %d, or auto; not %d", OSDTEX_LEVEL_MAX,
             options->level);
-    if (!(options->leaf_edge > 0.0) || !isfinite(options->leaf_edge))
+    if (!(options->leaf_edge >= 0.0) || !isfinite(options->leaf_edge))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "surface", OTX_NOWHERE,
-            "level auto needs the length of leaf edges, a positive number");
-    *level = otx_surface_level_for(&cage->cage, options->leaf_edge);
-    note_level(run, cage, options->leaf_edge, *level);
+            "the length of leaf edges is a positive number of scene units, or "
+            "0 for what suits most exemplars; not %g",
+            options->leaf_edge);
+    wanted = options->leaf_edge > 0.0
+                 ? options->leaf_edge
+                 : cage->info.default_scale / LEAVES_ACROSS;
+    *level = otx_surface_level_for(&cage->cage, wanted);
+    note_level(run, cage, wanted, *level);
     return OSDTEX_OK;
 }
 

@@ -196,8 +196,9 @@ texture(otx_session *session, job *j)
         say_plan(j);
         return OSDTEX_OK;
     }
+    j->request.map_options.surface = j->surface;
     status = osdtex_map(
-        session->context, j->surface, j->exemplar, &j->request.map_options,
+        session->context, j->cage, j->exemplar, &j->request.map_options,
         &j->mapping);
     otx_session_lap(session, "mapped");
     if (status == OSDTEX_OK)

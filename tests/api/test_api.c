@@ -70,9 +70,9 @@ pipe_run(osdtex_context *context, pipe *p)
     if (status == OSDTEX_OK)
         status =
             osdtex_exemplar_read(context, exemplar_path, NULL, &p->exemplar);
+    map.surface = p->surface;
     if (status == OSDTEX_OK)
-        status =
-            osdtex_map(context, p->surface, p->exemplar, &map, &p->mapping);
+        status = osdtex_map(context, p->cage, p->exemplar, &map, &p->mapping);
     if (status == OSDTEX_OK)
         status = osdtex_model_create(context, p->mapping, &p->model);
     if (status == OSDTEX_OK)
@@ -218,6 +218,78 @@ the_last_call_says_why_it_failed(void **state)
         osdtex_cage_read(context, cage_path, NULL, &cage), OSDTEX_OK);
     assert_int_equal(osdtex_context_error(context)->status, OSDTEX_OK);
     osdtex_cage_destroy(cage);
+}
+
+/* One call from cage and exemplar to a mapping, and none needs options. */
+static void
+defaults_are_enough(void **state)
+{
+    osdtex_context *context = *state;
+    osdtex_surface *surface;
+    osdtex_mapping *mapping;
+    osdtex_exemplar *exemplar;
+    osdtex_cage *cage;
+
+    assert_int_equal(
+        osdtex_cage_read(context, cage_path, NULL, &cage), OSDTEX_OK);
+    assert_int_equal(
+        osdtex_exemplar_read(context, exemplar_path, NULL, &exemplar),
+        OSDTEX_OK);
+    assert_int_equal(
+        osdtex_surface_refine(context, cage, NULL, &surface), OSDTEX_OK);
+    assert_true(osdtex_surface_describe(surface)->level > 0);
+    osdtex_surface_destroy(surface);
+    assert_int_equal(
+        osdtex_map(context, cage, exemplar, NULL, &mapping), OSDTEX_OK);
+    osdtex_cage_destroy(cage);
+    osdtex_exemplar_destroy(exemplar);
+    assert_int_equal(
+        osdtex_surface_describe(osdtex_mapping_surface(mapping))->face_count,
+        osdtex_mapping_describe(mapping)->face_count);
+    osdtex_mapping_destroy(mapping);
+    assert_null(osdtex_mapping_surface(NULL));
+}
+
+/* A surface is of one cage, and only that cage is mapped with it. */
+static void
+a_surface_of_another_cage_is_refused(void **state)
+{
+    osdtex_map_options options = osdtex_map_options_default();
+    osdtex_cage_arrays arrays = cube();
+    osdtex_mapping *mapping;
+    osdtex_cage *other;
+    pipe p;
+
+    assert_int_equal(pipe_run(*state, &p), OSDTEX_OK);
+    assert_int_equal(
+        osdtex_cage_create(*state, &arrays, NULL, &other), OSDTEX_OK);
+    options.surface = p.surface;
+    assert_int_equal(
+        osdtex_map(*state, other, p.exemplar, &options, &mapping),
+        OSDTEX_ERROR_ARGUMENT);
+    assert_non_null(
+        strstr(osdtex_context_error(*state)->message, "of another one"));
+    osdtex_cage_destroy(other);
+    pipe_destroy(&p);
+}
+
+/* Bindings get the defaults from the library, at whatever length they know. */
+static void
+exported_defaults_are_those_of_the_header(void **state)
+{
+    const osdtex_map_options wanted = osdtex_map_options_default();
+    osdtex_map_options got;
+    size_t shorter = offsetof(osdtex_map_options, first_u);
+
+    (void)state;
+    memset(&got, 0xff, sizeof got);
+    osdtex_map_options_init(&got, sizeof got);
+    assert_memory_equal(&got, &wanted, sizeof got);
+    memset(&got, 0xff, sizeof got);
+    osdtex_map_options_init(&got, shorter);
+    assert_int_equal(got.size, shorter);
+    assert_int_equal(got.first_face, -1);
+    assert_true(isnan(got.first_u)); /* beyond: untouched */
 }
 
 static void
@@ -512,6 +584,9 @@ main(void)
         WITH_CONTEXT(null_is_an_argument_or_nothing),
         cmocka_unit_test(handles_are_destroyed_in_any_order),
         WITH_CONTEXT(the_last_call_says_why_it_failed),
+        WITH_CONTEXT(defaults_are_enough),
+        WITH_CONTEXT(a_surface_of_another_cage_is_refused),
+        cmocka_unit_test(exported_defaults_are_those_of_the_header),
         WITH_CONTEXT(options_without_a_size_are_refused),
         WITH_CONTEXT(shorter_options_are_completed),
         WITH_CONTEXT(a_cube_from_arrays),

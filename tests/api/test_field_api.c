@@ -357,18 +357,17 @@ what_cannot_be_held_is_refused_in_a_sentence(void **state)
         osdtex_constraint constraint;
         const char *says;
     } cases[] = {
-        {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {0}, 0, 0},
-         "asks for nothing"},
-        {{sizeof(osdtex_constraint), 999999, 0, {0}, 0, {1, 0, 0}, 0, 0},
-         "the cage lacks"},
-        {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {NAN, 0, 0}, 0, 0},
-         "not finite"},
-        {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {0, 0, 1}, 0, 0}, "upright"},
-        {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {0}, 17, 0}, "1/16"},
-        {{sizeof(osdtex_constraint), 0, 0, {0}, 0, {0}, NAN, 0}, "1/16"},
-        {{sizeof(osdtex_constraint), 0, 1, {0}, 0, {0}, 0, -1}, "material"},
-        {{sizeof(osdtex_constraint), -1, 0, {NAN, 0, 0}, 0, {1, 0, 0}, 0, 0},
+#define AT(face_) .size = sizeof(osdtex_constraint), .face = (face_)
+        {{AT(0)}, "asks for nothing"},
+        {{AT(999999), .direction = {1, 0, 0}}, "the cage lacks"},
+        {{AT(0), .direction = {NAN, 0, 0}}, "not finite"},
+        {{AT(0), .direction = {0, 0, 1}}, "upright"},
+        {{AT(0), .scale = 17}, "1/16"},
+        {{AT(0), .scale = NAN}, "1/16"},
+        {{AT(0), .has_material = 1, .material = -1}, "material"},
+        {{AT(-1), .point = {NAN, 0, 0}, .direction = {1, 0, 0}},
          "finite point"},
+#undef AT
     };
     osdtex_field *field, *edited;
     scene s;

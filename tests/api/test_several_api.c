@@ -89,8 +89,9 @@ pipe_begin(
 static osdtex_status
 pipe_map(osdtex_context *context, pipe *p)
 {
+    p->options.surface = p->surface;
     return osdtex_map(
-        context, p->surface, p->exemplars[0], &p->options, &p->mapping);
+        context, p->cage, p->exemplars[0], &p->options, &p->mapping);
 }
 
 static osdtex_status
@@ -171,6 +172,54 @@ a_mask_says_where_they_go(void **state)
     remove(path);
     remove(folder);
     assert_int_equal(m.blocks, 0);
+}
+
+/* The same questions, asked from memory: by a mask and by constraints. */
+static void
+memory_says_where_they_go(void **state)
+{
+    static float pixels[MASK * MASK * 3];
+    osdtex_constraint at[FACES];
+    osdtex_setting exact = {"transition", "0"};
+    osdtex_image *image;
+
+    for (int i = 0; i < MASK * MASK; ++i)
+        pixels[3 * i] = i % MASK >= MASK / 2 ? 1.0f : 0.0f;
+    assert_int_equal(
+        osdtex_image_create(*state, MASK, MASK, 3, pixels, &image), OSDTEX_OK);
+    for (int way = 0; way < 2; ++way)
+    {
+        const osdtex_mapping_info *info;
+        const osdtex_surface_info *surface;
+        pipe p;
+
+        assert_int_equal(pipe_begin(*state, &p, NULL), OSDTEX_OK);
+        p.options.settings = &exact;
+        p.options.setting_count = 1;
+        p.options.face_exemplars = NULL;
+        for (int f = 0; f < FACES; ++f)
+        {
+            at[f] = osdtex_constraint_none();
+            at[f].face = f;
+            at[f].exemplar = 1 + p.faces[f];
+        }
+        if (way == 0)
+            p.options.mask_image = image;
+        else
+        {
+            p.options.constraint_items = at;
+            p.options.constraint_count = FACES;
+        }
+        assert_int_equal(pipe_map(*state, &p), OSDTEX_OK);
+        info = osdtex_mapping_describe(p.mapping);
+        surface = osdtex_surface_describe(osdtex_mapping_surface(p.mapping));
+        for (osdtex_index f = 0; f < info->face_count; ++f)
+            assert_int_equal(
+                info->patch_exemplar[info->face_patch[f]],
+                p.faces[surface->face_cage[f]]);
+        pipe_destroy(&p);
+    }
+    osdtex_image_destroy(image);
 }
 
 static void
@@ -306,6 +355,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         WITH_CONTEXT(patches_say_which_they_are_from),
         cmocka_unit_test(a_mask_says_where_they_go),
+        WITH_CONTEXT(memory_says_where_they_go),
         WITH_CONTEXT(one_exemplar_is_said_to_be_one),
         WITH_CONTEXT(what_cannot_be_is_refused),
         WITH_CONTEXT(exemplars_of_two_spaces_are_refused),

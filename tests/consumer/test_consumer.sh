@@ -17,8 +17,21 @@ test -s "$prefix/include/osdtex/osdtex.h"
 cmake -S "$here" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_BUILD_TYPE=Release >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 cmake --build "$work/build"
-"$work/build/consumer_shared"
-"$work/build/consumer_static"
+# What the README shows is this program.
+sed -n '/^    \/\* Textures a cage/,/^    }$/p' "$here/../../README.md" |
+    sed 's/^    //' | diff -u "$here/consumer.c" -
+
+run() {
+    models=$here/../../models
+    "$1" "$models/cages/plane.obj" "$models/exemplars/gravel_tile.png" \
+        "$work/out.obj"
+    test -s "$work/out.obj" && test -s "$work/out.exr"
+    rm "$work"/out.*
+    ! "$1" "$models/cages/none.obj" none.png "$work/out.obj" 2>"$work/said"
+    test -s "$work/said" && ! test -e "$work/out.obj"
+}
+run "$work/build/consumer_shared"
+run "$work/build/consumer_static"
 
 library=$(dirname "$(find "$prefix" -name libosdtex.a)")
 PKG_CONFIG_PATH=$library/pkgconfig
@@ -26,8 +39,8 @@ export PKG_CONFIG_PATH
 pkg-config --modversion osdtex
 cc -std=c17 "$here/consumer.c" -o "$work/by_pkgconfig" \
     $(pkg-config --cflags --libs osdtex)
-LD_LIBRARY_PATH=$library "$work/by_pkgconfig"
+(export LD_LIBRARY_PATH="$library"; run "$work/by_pkgconfig")
 cc -std=c17 "$here/consumer.c" -o "$work/by_pkgconfig_static" \
     $(pkg-config --cflags osdtex) "$library/libosdtex.a" \
     $(pkg-config --libs --static osdtex | sed 's/-losdtex//')
-"$work/by_pkgconfig_static"
+run "$work/by_pkgconfig_static"
