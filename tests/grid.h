@@ -6,7 +6,7 @@
 #include "support.h"
 
 #include "base/random.h"
-#include "image/exemplar.h"
+#include "exemplar/exemplar.h"
 #include "mapping/mapping.h"
 #include "surface/surface.h"
 

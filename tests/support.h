@@ -50,25 +50,26 @@ test_ration_release(void *user, void *block, size_t bytes)
     free(block);
 }
 
-static inline otx_heap_hooks
+static inline otx_allocator_hooks
 test_ration_hooks(test_ration *ration)
 {
-    return (otx_heap_hooks){test_ration_alloc, test_ration_release, ration, 0};
+    return (otx_allocator_hooks){
+        test_ration_alloc, test_ration_release, ration, 0};
 }
 
 /* A run with its own heap, arenas, diagnostics and pool. */
 static inline otx_run *
-test_run_create_with(const otx_heap_hooks *hooks, int32_t threads)
+test_run_create_with(const otx_allocator_hooks *hooks, int32_t threads)
 {
-    otx_heap *heap = otx_heap_create(hooks);
-    otx_arena *arena = otx_arena_create(heap);
+    otx_allocator *allocator = otx_allocator_create(hooks);
+    otx_arena *arena = otx_arena_create(allocator);
     otx_run *run = OTX_ZNEW(arena, otx_run, 1);
 
-    run->heap = heap;
+    run->allocator = allocator;
     run->arena = arena;
-    run->scratch = otx_arena_create(heap);
-    run->pool = otx_pool_create(heap, threads);
-    run->diagnostics = otx_diagnostics_create(heap);
+    run->scratch = otx_arena_create(allocator);
+    run->pool = otx_pool_create(allocator, threads);
+    run->diagnostics = otx_diagnostics_create(allocator);
     run->seed = 1;
     return run;
 }
@@ -82,15 +83,15 @@ test_run_create(void)
 static inline void
 test_run_destroy(otx_run *run)
 {
-    otx_heap *heap = run->heap;
+    otx_allocator *allocator = run->allocator;
     otx_arena *arena = run->arena;
 
     otx_pool_destroy(run->pool);
     otx_arena_destroy(run->scratch);
     otx_diagnostics_destroy(run->diagnostics);
     otx_arena_destroy(arena);
-    assert_int_equal(otx_heap_used(heap), 0);
-    otx_heap_destroy(heap);
+    assert_int_equal(otx_allocator_used(allocator), 0);
+    otx_allocator_destroy(allocator);
 }
 
 /* The same as the state of a test, for cmocka_unit_test_setup_teardown. */

@@ -28,7 +28,7 @@ otx_call_begin(osdtex_context *context, const char *stage, otx_call *call)
             {
                 .scratch = context->scratch,
                 .pool = context->pool,
-                .heap = context->heap,
+                .allocator = context->allocator,
                 .diagnostics = context->diagnostics,
                 .progress = context->options.progress,
                 .progress_user = context->options.progress_user,
@@ -37,7 +37,7 @@ otx_call_begin(osdtex_context *context, const char *stage, otx_call *call)
         .scratch = otx_arena_here(context->scratch),
         .begun = now(),
     };
-    call->run.arena = otx_arena_create(context->heap);
+    call->run.arena = otx_arena_create(context->allocator);
     if (!call->run.arena)
         return otx_fail_memory(&call->run, stage);
     return OSDTEX_OK;
@@ -132,7 +132,7 @@ otx_call_hold(otx_run *run, otx_arena *other)
 otx_status
 otx_call_aside(otx_call *call, otx_run *out)
 {
-    otx_arena *aside = otx_arena_create(call->run.heap);
+    otx_arena *aside = otx_arena_create(call->run.allocator);
     bool held;
 
     if (!aside)

@@ -7,7 +7,7 @@
 #define OTX_API_CALL_H
 
 #include "base/run.h"
-#include "image/colour.h"
+#include "colour/colour.h"
 
 #include <osdtex/osdtex.h>
 
@@ -25,7 +25,7 @@ typedef struct otx_call_time
 
 struct osdtex_context
 {
-    otx_heap *heap;
+    otx_allocator *allocator;
     otx_arena *arena; /* what lives as long as the context */
     otx_arena *scratch;
     otx_pool *pool;

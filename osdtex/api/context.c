@@ -48,17 +48,17 @@ static bool
 furnish(osdtex_context *context)
 {
     const osdtex_context_options *options = &context->options;
-    const otx_heap_hooks hooks = {
+    const otx_allocator_hooks hooks = {
         options->alloc, options->release, options->alloc_user,
         options->memory_limit};
 
-    context->heap = otx_heap_create(&hooks);
-    if (!context->heap)
+    context->allocator = otx_allocator_create(&hooks);
+    if (!context->allocator)
         return false;
-    context->arena = otx_arena_create(context->heap);
-    context->scratch = otx_arena_create(context->heap);
-    context->pool = otx_pool_create(context->heap, options->threads);
-    context->diagnostics = otx_diagnostics_create(context->heap);
+    context->arena = otx_arena_create(context->allocator);
+    context->scratch = otx_arena_create(context->allocator);
+    context->pool = otx_pool_create(context->allocator, options->threads);
+    context->diagnostics = otx_diagnostics_create(context->allocator);
     if (!context->arena || !context->scratch || !context->pool ||
         !context->diagnostics)
         return false;
@@ -116,7 +116,7 @@ osdtex_context_destroy(osdtex_context *context)
     otx_arena_destroy(context->scratch);
     otx_arena_destroy(context->arena);
     otx_diagnostics_destroy(context->diagnostics);
-    otx_heap_destroy(context->heap);
+    otx_allocator_destroy(context->allocator);
     free(context);
 }
 
@@ -159,7 +159,7 @@ osdtex_diagnostic_clear(osdtex_context *context)
 
     if (!context)
         return OSDTEX_ERROR_ARGUMENT;
-    fresh = otx_diagnostics_create(context->heap);
+    fresh = otx_diagnostics_create(context->allocator);
     if (!fresh)
         return OSDTEX_ERROR_MEMORY;
     otx_diagnostics_listen(

@@ -1,11 +1,11 @@
 /* exemplar_handle.c -- a picture from file or memory, its colours resolved. */
+#include "analysis/analysis.h"
 #include "api/call.h"
 #include "api/handle.h"
 #include "base/hash.h"
 #include "file/picture.h"
-#include "image/analysis.h"
-#include "tiling/period.h"
-#include "tiling/toroid.h"
+#include "quilt/period.h"
+#include "quilt/toroid.h"
 
 #include <math.h>
 #include <string.h>

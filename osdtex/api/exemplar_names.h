@@ -2,8 +2,8 @@
 #ifndef OTX_API_EXEMPLAR_NAMES_H
 #define OTX_API_EXEMPLAR_NAMES_H
 
+#include "exemplar/exemplar.h"
 #include "field/constraint.h"
-#include "image/exemplar.h"
 
 /* Gives every constraint that names an exemplar by its file the number instead.
  * A name is the file's, with or without folder or extension.

@@ -5,7 +5,7 @@
 #ifndef OTX_API_HANDLE_H
 #define OTX_API_HANDLE_H
 
-#include "image/exemplar.h"
+#include "exemplar/exemplar.h"
 #include "method/method.h"
 #include "render/scene.h"
 

@@ -2,10 +2,10 @@
 #include "api/image_handle.h"
 #include "api/call.h"
 #include "api/handle.h"
+#include "colour/embedding.h"
 #include "file/exr.h"
 #include "file/picture.h"
 #include "file/png_file.h"
-#include "image/embedding.h"
 
 #include <string.h>
 #include <strings.h>

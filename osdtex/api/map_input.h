@@ -2,7 +2,7 @@
 #ifndef OTX_API_MAP_INPUT_H
 #define OTX_API_MAP_INPUT_H
 
-#include "image/exemplar.h"
+#include "exemplar/exemplar.h"
 #include "method/method.h"
 
 #include <osdtex/osdtex.h>

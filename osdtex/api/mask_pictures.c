@@ -21,7 +21,7 @@ take_picture(
     otx_picture picture;
     otx_status status;
 
-    aside.arena = otx_arena_create(run->heap);
+    aside.arena = otx_arena_create(run->allocator);
     if (!aside.arena)
         return otx_fail_memory(run, STAGE);
     status = otx_picture_read(&aside, mask.path, &picture);

@@ -352,7 +352,8 @@ put_cost(
         set_real(
             stages, mapping->stats.stages[i].name,
             mapping->stats.stages[i].seconds);
-    set_int(memory, "peak_bytes", (int64_t)otx_heap_peak(context->heap));
+    set_int(
+        memory, "peak_bytes", (int64_t)otx_allocator_peak(context->allocator));
     if (getrusage(RUSAGE_SELF, &usage) == 0)
         set_int(memory, "peak_resident_bytes", 1024 * (int64_t)usage.ru_maxrss);
 }

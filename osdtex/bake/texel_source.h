@@ -3,7 +3,7 @@
 #define OTX_BAKE_TEXEL_SOURCE_H
 
 #include "bake/layout.h"
-#include "image/exemplar.h"
+#include "exemplar/exemplar.h"
 #include "image/texture.h"
 #include "mapping/mapping.h"
 #include "mapping/source.h"

@@ -1,4 +1,4 @@
-/* arena.c -- chained blocks over a counting heap.
+/* arena.c -- chained blocks of an allocator.
  *
  * Blocks start small and double up to 1 MiB, so that thousands of small arenas
  * are cheap; a larger request gets a block of its own, so that releasing a
@@ -6,24 +6,13 @@
 #include "base/arena.h"
 
 #include <stdatomic.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 
 enum
 {
     ALIGNMENT = 64,
     FIRST_BLOCK_BYTES = 4096,
-    LAST_BLOCK_BYTES = 1 << 20,
-    LARGE_PAGE_BYTES = 1 << 21
-};
-
-struct otx_heap
-{
-    otx_heap_hooks hooks;
-    _Atomic size_t used;
-    _Atomic size_t peak;
-    _Atomic size_t owners; /* its creator and every arena */
+    LAST_BLOCK_BYTES = 1 << 20
 };
 
 typedef struct chunk
@@ -42,137 +31,24 @@ typedef struct deferred
 
 struct otx_arena
 {
-    otx_heap *heap;
+    otx_allocator *allocator;
     chunk *last;
     deferred *deferred;
     _Atomic size_t owners;
 };
 
-otx_heap *
-otx_heap_create(const otx_heap_hooks *hooks)
-{
-    otx_heap *heap = malloc(sizeof *heap);
-
-    if (!heap)
-        return NULL;
-    heap->hooks = hooks ? *hooks : (otx_heap_hooks){0};
-    atomic_init(&heap->used, 0);
-    atomic_init(&heap->peak, 0);
-    atomic_init(&heap->owners, 1);
-    return heap;
-}
-
-void
-otx_heap_destroy(otx_heap *heap)
-{
-    if (heap && atomic_fetch_sub(&heap->owners, 1) == 1)
-        free(heap);
-}
-
-/* Counts `bytes` in, or refuses when they would pass the limit. */
-static bool
-reserve(otx_heap *heap, size_t bytes)
-{
-    const size_t limit = heap->hooks.limit_bytes;
-    const size_t used = atomic_fetch_add(&heap->used, bytes) + bytes;
-    size_t peak = atomic_load(&heap->peak);
-
-    if (used < bytes || (limit != 0 && used > limit))
-    {
-        atomic_fetch_sub(&heap->used, bytes);
-        return false;
-    }
-    while (used > peak &&
-           !atomic_compare_exchange_weak(&heap->peak, &peak, used))
-    {
-    }
-    return true;
-}
-
-/* Asks for large pages: the first touch of small ones is a quarter of the time
- * of refinement. It is advice, and may come to nothing. */
-#ifdef MADV_HUGEPAGE
-static void
-advise_large_pages(void *block, size_t bytes)
-{
-    const uintptr_t mask = LARGE_PAGE_BYTES - 1;
-    const uintptr_t first = ((uintptr_t)block + mask) & ~mask;
-    const uintptr_t end = ((uintptr_t)block + bytes) & ~mask;
-
-    if (end > first)
-        (void)madvise(
-            (char *)block + (first - (uintptr_t)block), end - first,
-            MADV_HUGEPAGE);
-}
-#else
-static void
-advise_large_pages(void *block, size_t bytes)
-{
-    (void)block;
-    (void)bytes;
-}
-#endif
-
-static void *
-plain_alloc(size_t bytes)
-{
-    void *block = malloc(bytes);
-
-    if (block && bytes >= 2 * (size_t)LARGE_PAGE_BYTES)
-        advise_large_pages(block, bytes);
-    return block;
-}
-
-void *
-otx_heap_alloc(otx_heap *heap, size_t bytes)
-{
-    void *block;
-
-    if (!reserve(heap, bytes))
-        return NULL;
-    block = heap->hooks.alloc ? heap->hooks.alloc(heap->hooks.user, bytes)
-                              : plain_alloc(bytes);
-    if (!block)
-        atomic_fetch_sub(&heap->used, bytes);
-    return block;
-}
-
-void
-otx_heap_free(otx_heap *heap, void *block, size_t bytes)
-{
-    if (!block)
-        return;
-    if (heap->hooks.release)
-        heap->hooks.release(heap->hooks.user, block, bytes);
-    else
-        free(block);
-    atomic_fetch_sub(&heap->used, bytes);
-}
-
-size_t
-otx_heap_used(const otx_heap *heap)
-{
-    return atomic_load(&heap->used);
-}
-
-size_t
-otx_heap_peak(const otx_heap *heap)
-{
-    return atomic_load(&heap->peak);
-}
-
 otx_arena *
-otx_arena_create(otx_heap *heap)
+otx_arena_create(otx_allocator *allocator)
 {
-    otx_arena *arena = otx_heap_alloc(heap, sizeof *arena);
+    otx_arena *arena = otx_allocator_alloc(allocator, sizeof *arena);
 
     if (!arena)
         return NULL;
-    arena->heap = heap;
+    arena->allocator = allocator;
     arena->last = NULL;
     arena->deferred = NULL;
     atomic_init(&arena->owners, 1);
-    atomic_fetch_add(&heap->owners, 1);
+    otx_allocator_hold(allocator);
     return arena;
 }
 
@@ -211,22 +87,22 @@ drop_blocks(otx_arena *arena, const chunk *until)
         chunk *b = arena->last;
 
         arena->last = b->previous;
-        otx_heap_free(arena->heap, b, block_bytes(b->capacity));
+        otx_allocator_free(arena->allocator, b, block_bytes(b->capacity));
     }
 }
 
 void
 otx_arena_destroy(otx_arena *arena)
 {
-    otx_heap *heap;
+    otx_allocator *allocator;
 
     if (!arena || atomic_fetch_sub(&arena->owners, 1) != 1)
         return;
-    heap = arena->heap;
+    allocator = arena->allocator;
     run_deferred(arena, NULL);
     drop_blocks(arena, NULL);
-    otx_heap_free(heap, arena, sizeof *arena);
-    otx_heap_destroy(heap);
+    otx_allocator_free(allocator, arena, sizeof *arena);
+    otx_allocator_destroy(allocator);
 }
 
 static void
@@ -259,7 +135,7 @@ grow(otx_arena *arena, size_t bytes)
 
     if (capacity > SIZE_MAX - sizeof(chunk) - ALIGNMENT)
         return false;
-    b = otx_heap_alloc(arena->heap, block_bytes(capacity));
+    b = otx_allocator_alloc(arena->allocator, block_bytes(capacity));
     if (!b)
         return false;
     *b = (chunk){.previous = arena->last, .capacity = capacity};

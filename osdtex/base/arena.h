@@ -6,40 +6,19 @@
  * `otx_arena_defer`, so that error paths have nothing to free.
  *
  * Arenas are counted: one that refers into another holds it, and the other
- * then outlives whoever destroys it first. So do heaps outlive their arenas.
+ * then outlives whoever destroys it first. So do allocators outlive their
+ * arenas.
  *
  * An arena serves one thread; a worker of the pool has its own. */
 #ifndef OTX_BASE_ARENA_H
 #define OTX_BASE_ARENA_H
 
-#include "base/status.h"
+#include "base/allocator.h"
 
 #ifdef __cplusplus
 extern "C"
 {
 #endif
-
-    /* Allocation hooks and the bytes they have handed out, shared by the arenas
-     * of a context. All of it is safe to use from several threads. */
-    typedef struct otx_heap otx_heap;
-
-    /* `alloc` returns NULL on failure; `release` gets the size back.
-     * Either may be NULL: malloc and free. `limit_bytes` 0 means no limit. */
-    typedef struct otx_heap_hooks
-    {
-        void *(*alloc)(void *user, size_t bytes);
-        void (*release)(void *user, void *block, size_t bytes);
-        void *user;
-        size_t limit_bytes;
-    } otx_heap_hooks;
-
-    otx_heap *otx_heap_create(const otx_heap_hooks *hooks);
-    /* The heap itself goes with the last of its arenas. */
-    void otx_heap_destroy(otx_heap *heap);
-    void *otx_heap_alloc(otx_heap *heap, size_t bytes);
-    void otx_heap_free(otx_heap *heap, void *block, size_t bytes);
-    size_t otx_heap_used(const otx_heap *heap);
-    size_t otx_heap_peak(const otx_heap *heap);
 
     typedef struct otx_arena otx_arena;
 
@@ -52,7 +31,7 @@ extern "C"
     } otx_arena_mark;
 
     /* NULL when memory is out. Destroying NULL is fine. */
-    otx_arena *otx_arena_create(otx_heap *heap);
+    otx_arena *otx_arena_create(otx_allocator *allocator);
     void otx_arena_destroy(otx_arena *arena);
 
     /* `count * size` bytes aligned to 64, uninitialised; NULL when the product

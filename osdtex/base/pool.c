@@ -43,7 +43,7 @@ typedef struct thread
 
 struct otx_pool
 {
-    otx_heap *heap;
+    otx_allocator *allocator;
     int32_t thread_count;
     int32_t started; /* threads other than the caller */
     thread threads[MAX_THREADS];
@@ -325,7 +325,7 @@ start_threads(otx_pool *pool)
         t->pool = pool;
         t->worker.index = i;
         t->worker.pool = pool;
-        t->worker.scratch = otx_arena_create(pool->heap);
+        t->worker.scratch = otx_arena_create(pool->allocator);
         if (!t->worker.scratch)
             return false;
         if (i == 0)
@@ -338,9 +338,9 @@ start_threads(otx_pool *pool)
 }
 
 otx_pool *
-otx_pool_create(otx_heap *heap, int32_t threads)
+otx_pool_create(otx_allocator *allocator, int32_t threads)
 {
-    otx_pool *pool = otx_heap_alloc(heap, sizeof *pool);
+    otx_pool *pool = otx_allocator_alloc(allocator, sizeof *pool);
 
     if (!pool)
         return NULL;
@@ -351,7 +351,7 @@ otx_pool_create(otx_heap *heap, int32_t threads)
     if (threads > MAX_THREADS)
         threads = MAX_THREADS;
     memset(pool, 0, sizeof *pool);
-    pool->heap = heap;
+    pool->allocator = allocator;
     pool->thread_count = threads;
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->work, NULL);
@@ -380,7 +380,7 @@ otx_pool_destroy(otx_pool *pool)
     pthread_cond_destroy(&pool->done);
     pthread_cond_destroy(&pool->work);
     pthread_mutex_destroy(&pool->mutex);
-    otx_heap_free(pool->heap, pool, sizeof *pool);
+    otx_allocator_free(pool->allocator, pool, sizeof *pool);
 }
 
 int32_t

@@ -25,7 +25,7 @@ typedef otx_status (*otx_pool_body)(
 
 /* `threads` of 0 means the cores of the machine. The calling thread is one of
  * them, so 1 starts none. NULL when memory or threads are out. */
-otx_pool *otx_pool_create(otx_heap *heap, int32_t threads);
+otx_pool *otx_pool_create(otx_allocator *allocator, int32_t threads);
 void otx_pool_destroy(otx_pool *pool);
 int32_t otx_pool_threads(const otx_pool *pool);
 

@@ -38,7 +38,7 @@ typedef struct fault
 
 struct otx_diagnostics
 {
-    otx_heap *heap;
+    otx_allocator *allocator;
     otx_arena *arena;
     finding *findings;
     int32_t count;
@@ -49,16 +49,16 @@ struct otx_diagnostics
 };
 
 otx_diagnostics *
-otx_diagnostics_create(otx_heap *heap)
+otx_diagnostics_create(otx_allocator *allocator)
 {
-    otx_diagnostics *d = otx_heap_alloc(heap, sizeof *d);
+    otx_diagnostics *d = otx_allocator_alloc(allocator, sizeof *d);
 
     if (!d)
         return NULL;
     memset(d, 0, sizeof *d);
-    d->heap = heap;
+    d->allocator = allocator;
     otx_diagnostics_forget_error(d);
-    d->arena = otx_arena_create(heap);
+    d->arena = otx_arena_create(allocator);
     if (d->arena)
         d->findings = OTX_NEW(d->arena, finding, MAX_FINDINGS);
     pthread_mutex_init(&d->mutex, NULL);
@@ -77,7 +77,7 @@ otx_diagnostics_destroy(otx_diagnostics *d)
         return;
     pthread_mutex_destroy(&d->mutex);
     otx_arena_destroy(d->arena);
-    otx_heap_free(d->heap, d, sizeof *d);
+    otx_allocator_free(d->allocator, d, sizeof *d);
 }
 
 int32_t

@@ -40,7 +40,7 @@ typedef struct otx_run
     otx_arena *arena;   /* results; outlives the stage */
     otx_arena *scratch; /* temporaries; mark and release */
     otx_pool *pool;
-    otx_heap *heap;
+    otx_allocator *allocator;
     otx_diagnostics *diagnostics;
     otx_progress_fn progress; /* NULL none */
     void *progress_user;
@@ -50,7 +50,7 @@ typedef struct otx_run
 } otx_run;
 
 /* NULL when memory is out. */
-otx_diagnostics *otx_diagnostics_create(otx_heap *heap);
+otx_diagnostics *otx_diagnostics_create(otx_allocator *allocator);
 void otx_diagnostics_destroy(otx_diagnostics *diagnostics);
 int32_t otx_diagnostics_count(const otx_diagnostics *diagnostics);
 void otx_diagnostics_get(

@@ -103,7 +103,7 @@ bench_map_job_run(const bench_map_job *job, bench_map_result *out)
     OTX_TRY(bench_workspace_open(&run, job->threads));
     status = map(&run, job, out);
     out->resident_bytes = bench_workspace_peak();
-    out->heap_bytes = (double)otx_heap_peak(run.heap);
+    out->heap_bytes = (double)otx_allocator_peak(run.allocator);
     bench_workspace_close(&run);
     return status;
 }

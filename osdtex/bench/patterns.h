@@ -2,7 +2,7 @@
 #ifndef OTX_BENCH_PATTERNS_H
 #define OTX_BENCH_PATTERNS_H
 
-#include "image/exemplar.h"
+#include "exemplar/exemplar.h"
 
 /* Smooth coloured blobs of three sizes, tiling, n x n (n a multiple of 16).
  * RGB in [0, 1]; in run->arena. */

@@ -15,15 +15,15 @@ show(void *user, const osdtex_diagnostic *finding)
 otx_status
 bench_workspace_open(otx_run *run, int32_t threads)
 {
-    otx_heap *heap = otx_heap_create(NULL);
+    otx_allocator *allocator = otx_allocator_create(NULL);
 
-    *run = (otx_run){.heap = heap, .seed = 1};
-    if (!heap)
+    *run = (otx_run){.allocator = allocator, .seed = 1};
+    if (!allocator)
         return OSDTEX_ERROR_MEMORY;
-    run->arena = otx_arena_create(heap);
-    run->scratch = otx_arena_create(heap);
-    run->pool = otx_pool_create(heap, threads);
-    run->diagnostics = otx_diagnostics_create(heap);
+    run->arena = otx_arena_create(allocator);
+    run->scratch = otx_arena_create(allocator);
+    run->pool = otx_pool_create(allocator, threads);
+    run->diagnostics = otx_diagnostics_create(allocator);
     if (run->arena && run->scratch && run->pool && run->diagnostics)
     {
         otx_diagnostics_listen(run->diagnostics, show, NULL);
@@ -36,13 +36,13 @@ bench_workspace_open(otx_run *run, int32_t threads)
 void
 bench_workspace_close(otx_run *run)
 {
-    if (!run->heap)
+    if (!run->allocator)
         return;
     otx_pool_destroy(run->pool);
     otx_arena_destroy(run->scratch);
     otx_arena_destroy(run->arena);
     otx_diagnostics_destroy(run->diagnostics);
-    otx_heap_destroy(run->heap);
+    otx_allocator_destroy(run->allocator);
     *run = (otx_run){0};
 }
 

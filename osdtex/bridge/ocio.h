@@ -2,7 +2,7 @@
  *
  * A thin layer: it opens a configuration, answers questions about its colour
  * spaces and converts arrays of pixels. What to convert to what is decided in
- * image/colour. Every entry catches whatever OpenColorIO throws and turns it
+ * colour/colour. Every entry catches whatever OpenColorIO throws and turns it
  * into OSDTEX_ERROR_COLOUR and one sentence in `message`, a caller's array of
  * OTX_OCIO_MESSAGE_BYTES that is "" on success.
  *

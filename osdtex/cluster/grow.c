@@ -7,7 +7,7 @@
  * but the mesh. */
 #include "cluster/cluster.h"
 
-#include "base/queue.h"
+#include "base/pqueue.h"
 
 #include <string.h>
 
@@ -31,30 +31,30 @@ typedef struct growth
     int32_t seed_count;
     /* While seeds are placed: faces by falling distance, with stale entries.
      * Looking through all faces for each seed would be quadratic. */
-    otx_queue far;
+    otx_pqueue far;
     bool placing;
 } growth;
 
 static bool
-reach(growth *g, otx_queue *queue, int32_t face, int32_t seed, double distance)
+reach(growth *g, otx_pqueue *queue, int32_t face, int32_t seed, double distance)
 {
     g->owner[face] = seed;
     g->distance[face] = distance;
-    return otx_queue_push(queue, distance, face) &&
-           (!g->placing || otx_queue_push(&g->far, -distance, face));
+    return otx_pqueue_push(queue, distance, face) &&
+           (!g->placing || otx_pqueue_push(&g->far, -distance, face));
 }
 
 /* Spreads from one seed to where it is nearer than what was there. */
 static bool
-spread(growth *g, otx_queue *queue, int32_t seed)
+spread(growth *g, otx_pqueue *queue, int32_t seed)
 {
     const otx_level *level = g->dual->level;
-    otx_queue_entry entry;
+    otx_pqueue_entry entry;
 
     queue->count = 0;
     if (!reach(g, queue, g->seeds[seed], seed, 0.0))
         return false;
-    while (otx_queue_pop(queue, &entry))
+    while (otx_pqueue_pop(queue, &entry))
     {
         const int32_t face = entry.item;
 
@@ -95,7 +95,7 @@ begin_placing(growth *g)
     g->placing = true;
     g->far.count = 0;
     for (int32_t i = 0; i < g->region->face_count; ++i)
-        if (!otx_queue_push(&g->far, -INFINITY, g->region->faces[i]))
+        if (!otx_pqueue_push(&g->far, -INFINITY, g->region->faces[i]))
             return false;
     return true;
 }
@@ -105,16 +105,16 @@ begin_placing(growth *g)
 static int32_t
 farthest(growth *g)
 {
-    otx_queue_entry entry;
+    otx_pqueue_entry entry;
 
-    while (otx_queue_pop(&g->far, &entry))
+    while (otx_pqueue_pop(&g->far, &entry))
         if (-entry.key == g->distance[entry.item])
             return entry.item;
     return g->seeds[0];
 }
 
 static bool
-place_seeds(growth *g, otx_queue *queue, int32_t wanted)
+place_seeds(growth *g, otx_pqueue *queue, int32_t wanted)
 {
     /* The first is far from an arbitrary face, so that it lies at an end. */
     g->seeds[0] = g->region->faces[0];
@@ -180,7 +180,7 @@ center_seeds(growth *g, otx_arena *scratch)
 }
 
 static bool
-lloyd(growth *g, otx_queue *queue, otx_arena *scratch)
+lloyd(growth *g, otx_pqueue *queue, otx_arena *scratch)
 {
     for (int32_t round = 0; round < LLOYD_ROUNDS; ++round)
     {
@@ -237,7 +237,7 @@ grow_regions(
 {
     const int32_t n = dual->level->face_count;
     growth g = {.run = run, .dual = dual, .region = region, .bend = bend};
-    otx_queue queue = otx_queue_make(run->scratch);
+    otx_pqueue queue = otx_pqueue_make(run->scratch);
 
     g.owner = OTX_NEW(run->scratch, int32_t, n);
     g.distance = OTX_NEW(run->scratch, double, n);
@@ -245,7 +245,7 @@ grow_regions(
     if (!g.owner || !g.distance || !g.seeds)
         return otx_fail_memory(run, "cluster");
     memset(g.owner, OUTSIDE, (size_t)n * sizeof *g.owner);
-    g.far = otx_queue_make(run->scratch);
+    g.far = otx_pqueue_make(run->scratch);
     if (!place_seeds(&g, &queue, wanted) || !lloyd(&g, &queue, run->scratch))
         return otx_fail_memory(run, "cluster");
     return collect(&g, out);

@@ -7,8 +7,8 @@
 #ifndef OTX_EXPORT_MODEL_H
 #define OTX_EXPORT_MODEL_H
 
+#include "exemplar/exemplar.h"
 #include "file/atomic_file.h"
-#include "image/exemplar.h"
 #include "mapping/mapping.h"
 
 typedef struct otx_model_options

@@ -2,8 +2,8 @@
 #ifndef OTX_EXPORT_TEXTURE_FILE_H
 #define OTX_EXPORT_TEXTURE_FILE_H
 
+#include "exemplar/exemplar.h"
 #include "file/atomic_file.h"
-#include "image/exemplar.h"
 
 /* What the names of its texture files end in: ".exr" or ".png". */
 const char *otx_texture_file_extension(const otx_exemplar *exemplar);

@@ -1,7 +1,7 @@
 /* constraint.c -- what the artist asks of the fields on a surface. */
 #include "field/constraint.h"
 
-#include "base/queue.h"
+#include "base/pqueue.h"
 #include "field/attract.h"
 #include "field/nested.h"
 
@@ -444,8 +444,8 @@ otx_constraint_scale(
 
 static bool
 push_around(
-    const otx_connection *c, otx_queue *queue, const uint8_t *effect,
-    otx_queue_entry from, double radius)
+    const otx_connection *c, otx_pqueue *queue, const uint8_t *effect,
+    otx_pqueue_entry from, double radius)
 {
     for (int32_t i = c->level->face_first[from.item];
          i < c->level->face_first[from.item + 1]; ++i)
@@ -459,7 +459,7 @@ push_around(
             continue;
         d = from.key + otx_vec3_length(otx_vec3_sub(
                            c->centres[other], c->centres[from.item]));
-        if (d <= radius && !otx_queue_push(queue, d, other))
+        if (d <= radius && !otx_pqueue_push(queue, d, other))
             return false;
     }
     return true;
@@ -473,8 +473,8 @@ otx_constraint_effect(
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     const otx_constraint_set set = {.count = 1, .items = constraint};
     uint8_t *effect = OTX_ZNEW(run->arena, uint8_t, c->level->face_count);
-    otx_queue queue = otx_queue_make(run->scratch);
-    otx_queue_entry entry;
+    otx_pqueue queue = otx_pqueue_make(run->scratch);
+    otx_pqueue_entry entry;
     bool fine = effect != NULL;
     grip g;
 
@@ -482,8 +482,8 @@ otx_constraint_effect(
     g = take_hold(c, constraint);
     for (int32_t f = g.first; fine && f < g.end; ++f)
         if (holds(c, &g, f))
-            fine = otx_queue_push(&queue, 0.0, f);
-    while (fine && otx_queue_pop(&queue, &entry))
+            fine = otx_pqueue_push(&queue, 0.0, f);
+    while (fine && otx_pqueue_pop(&queue, &entry))
     {
         if (effect[entry.item])
             continue;

@@ -104,7 +104,7 @@ otx_nested_solve(
         connection->level->face_count <= FACES_MAX)
         return otx_direction_solve(run, connection, request, out);
     OTX_TRY(otx_direction_check(run, connection, request));
-    aside.arena = otx_arena_create(run->heap);
+    aside.arena = otx_arena_create(run->allocator);
     if (!aside.arena)
         return otx_fail_memory(run, "field");
 

@@ -1,7 +1,7 @@
 /* arap.c -- unfolding, then local/global rounds [Liu08, sec. 3 and 4]. */
 #include "flatten/arap.h"
 
-#include "base/queue.h"
+#include "base/pqueue.h"
 #include "flatten/rigid.h"
 
 enum
@@ -131,16 +131,16 @@ unfold(
     const otx_chart_space *space, otx_arena *scratch)
 {
     const otx_dual *leaves = request->leaves;
-    otx_queue queue = otx_queue_make(scratch);
-    otx_queue_entry entry;
+    otx_pqueue queue = otx_pqueue_make(scratch);
+    otx_pqueue_entry entry;
     uint8_t *placed = OTX_ZNEW(scratch, uint8_t, chart->vert_count);
     uint8_t *done = OTX_ZNEW(scratch, uint8_t, chart->face_count);
     otx_vec2 *shape = OTX_NEW(scratch, otx_vec2, largest_face(chart));
 
     if (!placed || !done || !shape ||
-        !otx_queue_push(&queue, 0.0, middle_face(chart, leaves)))
+        !otx_pqueue_push(&queue, 0.0, middle_face(chart, leaves)))
         return OSDTEX_ERROR_MEMORY;
-    while (otx_queue_pop(&queue, &entry))
+    while (otx_pqueue_pop(&queue, &entry))
     {
         const int32_t face = chart->faces[entry.item];
 
@@ -159,7 +159,7 @@ unfold(
 
             if (slot < 0 || done[slot])
                 continue;
-            if (!otx_queue_push(
+            if (!otx_pqueue_push(
                     &queue, entry.key + otx_dual_step(leaves, face, next, 0.0),
                     slot))
                 return OSDTEX_ERROR_MEMORY;

@@ -1,7 +1,7 @@
 /* chart.c -- collects core and collar, numbers their vertices, flattens. */
 #include "flatten/chart.h"
 
-#include "base/queue.h"
+#include "base/pqueue.h"
 #include "flatten/arap.h"
 #include "flatten/stretch.h"
 
@@ -131,7 +131,7 @@ keeps_disc(const gathering *g, int32_t face)
 
 /* Offers the neighbours of a chart face to the queue. */
 static bool
-push_neighbours(gathering *g, otx_queue *queue, int32_t face, double reach)
+push_neighbours(gathering *g, otx_pqueue *queue, int32_t face, double reach)
 {
     const otx_chart_request *r = g->request;
     const otx_level *leaf = r->leaves->level;
@@ -146,7 +146,7 @@ push_neighbours(gathering *g, otx_queue *queue, int32_t face, double reach)
         step = r->texels * otx_dual_step(r->leaves, face, next, r->bend);
         if (reach + step > r->collar)
             continue;
-        if (!otx_queue_push(queue, reach + step, next))
+        if (!otx_pqueue_push(queue, reach + step, next))
             return false;
     }
     return true;
@@ -157,13 +157,13 @@ push_neighbours(gathering *g, otx_queue *queue, int32_t face, double reach)
 static bool
 grow_collar(gathering *g, otx_arena *scratch)
 {
-    otx_queue queue = otx_queue_make(scratch);
-    otx_queue_entry entry;
+    otx_pqueue queue = otx_pqueue_make(scratch);
+    otx_pqueue_entry entry;
 
     for (int32_t i = 0; i < g->chart->core_count; ++i)
         if (!push_neighbours(g, &queue, g->chart->faces[i], 0.0))
             return false;
-    while (otx_queue_pop(&queue, &entry))
+    while (otx_pqueue_pop(&queue, &entry))
     {
         if (g->space->face_slot[entry.item] >= 0 || !keeps_disc(g, entry.item))
             continue;

@@ -2,7 +2,7 @@
 #ifndef OTX_MAPPING_ALIGNMENT_H
 #define OTX_MAPPING_ALIGNMENT_H
 
-#include "image/exemplar.h"
+#include "exemplar/exemplar.h"
 #include "mapping/mapping.h"
 
 typedef struct otx_alignment

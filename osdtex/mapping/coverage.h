@@ -2,7 +2,7 @@
 #ifndef OTX_MAPPING_COVERAGE_H
 #define OTX_MAPPING_COVERAGE_H
 
-#include "image/exemplar.h"
+#include "exemplar/exemplar.h"
 
 /* Area of the surface by the cells of the exemplar that it shows. */
 typedef struct otx_coverage

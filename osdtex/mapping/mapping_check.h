@@ -8,7 +8,7 @@
 #define OTX_MAPPING_MAPPING_CHECK_H
 
 #include "base/run.h"
-#include "image/exemplar.h"
+#include "exemplar/exemplar.h"
 #include "mapping/mapping.h"
 
 /* Checks, in this order, of a finished mapping:

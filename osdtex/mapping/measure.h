@@ -7,7 +7,7 @@
 #ifndef OTX_MAPPING_MEASURE_H
 #define OTX_MAPPING_MEASURE_H
 
-#include "image/exemplar.h"
+#include "exemplar/exemplar.h"
 #include "mapping/mapping.h"
 
 typedef struct otx_measure_options

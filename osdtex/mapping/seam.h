@@ -8,7 +8,7 @@
 #ifndef OTX_MAPPING_SEAM_H
 #define OTX_MAPPING_SEAM_H
 
-#include "image/exemplar.h"
+#include "exemplar/exemplar.h"
 #include "mapping/source.h"
 
 /* Texel distance below which two UVs are the same: float UVs of a picture of

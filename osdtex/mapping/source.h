@@ -6,7 +6,7 @@
 #ifndef OTX_MAPPING_SOURCE_H
 #define OTX_MAPPING_SOURCE_H
 
-#include "image/exemplar.h"
+#include "exemplar/exemplar.h"
 #include "mapping/mapping.h"
 
 /* Index of the exemplar; 0 on faces without a patch. */

@@ -7,7 +7,7 @@
  * Only the simplicial code is used: the supernodal code has another licence.
  * It runs in one thread, and its result depends on its input alone. Factors
  * are made and used in any one thread at a time; several may be at work at
- * once. Their memory is CHOLMOD's own and does not count in the heap.
+ * once. Their memory is CHOLMOD's own and does not count in the allocator.
  *
  * [Chen08] Chen, Davis, Hager, Rajamanickam: Algorithm 887: CHOLMOD. TOMS 35.
  * [Lanczos50] Lanczos: An iteration method for the solution of the eigenvalue

@@ -5,8 +5,8 @@
 #ifndef OTX_METHOD_GUIDE_H
 #define OTX_METHOD_GUIDE_H
 
+#include "analysis/analysis.h"
 #include "field/constraint.h"
-#include "image/analysis.h"
 #include "mapping/mapping.h"
 
 /* Solves for the field that `constraints` ask for (NULL: the smoothest), of

@@ -6,8 +6,8 @@
 #ifndef OTX_METHOD_METHOD_H
 #define OTX_METHOD_METHOD_H
 
-#include "image/analysis.h"
-#include "image/exemplar.h"
+#include "analysis/analysis.h"
+#include "exemplar/exemplar.h"
 #include "mapping/mapping.h"
 #include "method/guide.h"
 #include "method/option.h"

@@ -7,8 +7,8 @@
 
 #include "flatten/stretch.h"
 #include "image/pyramid.h"
-#include "relax/reach.h"
 #include "relax/sheet.h"
+#include "surface/distance.h"
 
 #include <string.h>
 
@@ -819,7 +819,7 @@ otx_elastic_run(
 
     *out = (otx_elastic_stats){0};
     if (options->reach > 0.0)
-        OTX_TRY(otx_reach_mark(
+        OTX_TRY(otx_distance_mark(
             run, surface, face_patch, options->reach / options->texels,
             &inside));
     OTX_TRY(otx_sheet_build(

@@ -13,7 +13,7 @@
 #ifndef OTX_RELAX_ELASTIC_H
 #define OTX_RELAX_ELASTIC_H
 
-#include "image/exemplar.h"
+#include "exemplar/exemplar.h"
 #include "math/vec.h"
 #include "surface/surface.h"
 

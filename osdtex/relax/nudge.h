@@ -9,8 +9,8 @@
 #ifndef OTX_RELAX_NUDGE_H
 #define OTX_RELAX_NUDGE_H
 
+#include "exemplar/exemplar.h"
 #include "flatten/chart.h"
-#include "image/exemplar.h"
 
 typedef struct otx_nudge_request
 {

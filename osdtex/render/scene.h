@@ -6,7 +6,7 @@
 #ifndef OTX_RENDER_SCENE_H
 #define OTX_RENDER_SCENE_H
 
-#include "image/exemplar.h"
+#include "exemplar/exemplar.h"
 #include "mapping/mapping.h"
 
 /* Scene-linear pixels; 1 and 2 channels are grey, alpha is not looked at. */

@@ -8,7 +8,7 @@
 #ifndef OTX_TILING_CORNER_H
 #define OTX_TILING_CORNER_H
 
-#include "tiling/quilt.h"
+#include "quilt/quilt.h"
 
 typedef struct otx_corner
 {

@@ -8,7 +8,7 @@
 #ifndef OTX_TILING_INTERIOR_H
 #define OTX_TILING_INTERIOR_H
 
-#include "tiling/patchwork.h"
+#include "quilt/patchwork.h"
 #include "tiling/ring_search.h"
 
 typedef struct otx_interior_options

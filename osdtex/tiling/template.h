@@ -6,7 +6,7 @@
 #ifndef OTX_TILING_TEMPLATE_H
 #define OTX_TILING_TEMPLATE_H
 
-#include "tiling/patch_search.h"
+#include "quilt/patch_search.h"
 #include "tiling/tileset.h"
 
 /* Texels that otx_template_kit adds to the pool. */

@@ -392,7 +392,7 @@ close_arena(void *arena)
 static otx_status
 open_arena(otx_run *run, otx_arena **out)
 {
-    *out = otx_arena_create(run->heap);
+    *out = otx_arena_create(run->allocator);
     if (!*out)
         return otx_fail_memory(run, STAGE);
     if (otx_arena_defer(run->scratch, close_arena, *out))

@@ -8,7 +8,7 @@
 #define OTX_TILING_VERTEX_CHECK_H
 
 #include "image/tile_layout.h"
-#include "tiling/patch_search.h"
+#include "quilt/patch_search.h"
 
 typedef struct otx_vertex_figures
 {

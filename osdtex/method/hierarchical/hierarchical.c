@@ -29,7 +29,7 @@ flatten_from(otx_mapper *m, int32_t first)
 /* Tells the neighbours of a new patch that more of their border is textured.
  */
 static bool
-wake_neighbours(otx_mapper *m, otx_queue *queue, int32_t index)
+wake_neighbours(otx_mapper *m, otx_pqueue *queue, int32_t index)
 {
     const otx_level *leaf = m->leaves.level;
     const otx_node *node = &m->nodes[index];
@@ -49,7 +49,7 @@ wake_neighbours(otx_mapper *m, otx_queue *queue, int32_t index)
             next = &m->nodes[m->leaf_node[other]];
             next->textured += otx_nodes_edge_length(
                 m, leaf->face_edges[leaf->face_first[f] + k]);
-            if (!otx_queue_push(
+            if (!otx_pqueue_push(
                     queue, otx_wave_key(m, m->leaf_node[other]),
                     m->leaf_node[other]))
                 return false;
@@ -59,18 +59,18 @@ wake_neighbours(otx_mapper *m, otx_queue *queue, int32_t index)
 }
 
 static bool
-push_range(otx_mapper *m, otx_queue *queue, int32_t first, int32_t end)
+push_range(otx_mapper *m, otx_pqueue *queue, int32_t first, int32_t end)
 {
     for (int32_t i = first; i < end; ++i)
         if (!m->nodes[i].retired &&
-            !otx_queue_push(queue, otx_wave_key(m, i), i))
+            !otx_pqueue_push(queue, otx_wave_key(m, i), i))
             return false;
     return true;
 }
 
 /* Puts the children of a node that fitted nowhere into the queue. */
 static otx_status
-descend(otx_mapper *m, otx_queue *queue, int32_t index)
+descend(otx_mapper *m, otx_pqueue *queue, int32_t index)
 {
     const int32_t first = m->node_count;
 
@@ -101,7 +101,7 @@ fails_to_fit(otx_mapper *m, int32_t index)
 
 /* Commits a wave in its order; what is not accepted is split. */
 static otx_status
-settle(otx_mapper *m, otx_queue *queue, const otx_fit *fits, int32_t count)
+settle(otx_mapper *m, otx_pqueue *queue, const otx_fit *fits, int32_t count)
 {
     for (int32_t i = 0; i < count; ++i)
     {
@@ -123,12 +123,12 @@ settle(otx_mapper *m, otx_queue *queue, const otx_fit *fits, int32_t count)
 static otx_status
 fit_all(otx_mapper *m)
 {
-    otx_queue queue = otx_queue_make(m->run->scratch);
+    otx_pqueue queue = otx_pqueue_make(m->run->scratch);
     const int32_t first = otx_first_node(m);
     otx_fit fits[OTX_WAVE_NODES];
     int32_t count;
 
-    if ((first >= 0 && !otx_queue_push(&queue, -INFINITY, first)) ||
+    if ((first >= 0 && !otx_pqueue_push(&queue, -INFINITY, first)) ||
         !push_range(m, &queue, 0, m->node_count))
         return otx_fail_memory(m->run, "map");
     OTX_TRY(otx_wave_next(m, &queue, fits, &count));
@@ -138,7 +138,7 @@ fit_all(otx_mapper *m)
         OTX_TRY(settle(m, &queue, fits, count));
         /* The user's first patch was split: its part comes first. */
         if (first >= 0 && m->patch_count == 0 &&
-            !otx_queue_push(&queue, -INFINITY, otx_first_node(m)))
+            !otx_pqueue_push(&queue, -INFINITY, otx_first_node(m)))
             return otx_fail_memory(m->run, "map");
         OTX_TRY(otx_progress(
             m->run, "fit", fmin(1.0, m->done_area / m->total_area)));

@@ -9,7 +9,7 @@
 #ifndef OTX_METHOD_HIERARCHICAL_H
 #define OTX_METHOD_HIERARCHICAL_H
 
-#include "base/queue.h"
+#include "base/pqueue.h"
 #include "flatten/chart.h"
 #include "match/match.h"
 #include "method/method.h"
@@ -246,7 +246,7 @@ bool otx_fit_commit(otx_mapper *m, const otx_fit *fit);
  *   count  0 when the queue is empty */
 double otx_wave_key(const otx_mapper *m, int32_t node);
 otx_status
-otx_wave_next(otx_mapper *m, otx_queue *queue, otx_fit *fits, int32_t *count);
+otx_wave_next(otx_mapper *m, otx_pqueue *queue, otx_fit *fits, int32_t *count);
 
 /* given.c: takes over what is textured already. */
 void otx_given_take(otx_mapper *m);

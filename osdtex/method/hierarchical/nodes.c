@@ -266,7 +266,7 @@ flatten_node(void *context, int64_t index, otx_worker *worker)
         .rounds = 5,
     };
 
-    node->arena = otx_arena_create(m->run->heap);
+    node->arena = otx_arena_create(m->run->allocator);
     if (!node->arena)
         return OSDTEX_ERROR_MEMORY;
     /* A cluster of several faces has no control polygon of its own. */

@@ -1,7 +1,7 @@
 /* offer.c -- what each patch can show: its whole chart, collar included. */
 #include "method/hierarchical/hierarchical.h"
 
-#include "relax/outline.h"
+#include "analysis/outline.h"
 
 #include <stdlib.h>
 

@@ -4,8 +4,8 @@
  * for, and is fitted to what its neighbours show of theirs. */
 #include "method/hierarchical/hierarchical.h"
 
-#include "image/edges.h"
-#include "relax/reach.h"
+#include "analysis/edges.h"
+#include "surface/distance.h"
 
 /* The area that asks for each, of the leaves that are no holes. */
 static void
@@ -91,7 +91,7 @@ otx_supply_prepare(otx_mapper *m)
     m->away = OTX_NEW(m->run->arena, double, leaf->face_count);
     if (!m->patch_exemplar || !m->away)
         return otx_fail_memory(m->run, "map");
-    return otx_reach_measure(
+    return otx_distance_measure(
         m->run, m->surface, m->request->demand, m->texels, m->transition,
         m->away);
 }

@@ -37,7 +37,7 @@ otx_wave_key(const otx_mapper *m, int32_t index)
 }
 
 static bool
-is_stale(const otx_mapper *m, const otx_queue_entry *entry)
+is_stale(const otx_mapper *m, const otx_pqueue_entry *entry)
 {
     const otx_node *node = &m->nodes[entry->item];
 
@@ -67,7 +67,7 @@ mark(otx_mapper *m, int32_t index)
  * by one, and so is the user's first; where nothing is textured there is
  * nothing yet to fit to. */
 static bool
-may_grow(const otx_mapper *m, const otx_queue_entry *first)
+may_grow(const otx_mapper *m, const otx_pqueue_entry *first)
 {
     return m->settings.mode == OTX_HIERARCHICAL_BEST && isfinite(first->key) &&
            textured_share(&m->nodes[first->item]) > 0.0;
@@ -83,15 +83,15 @@ is_as_good(const otx_mapper *m, int32_t index, int32_t first)
 }
 
 otx_status
-otx_wave_next(otx_mapper *m, otx_queue *queue, otx_fit *fits, int32_t *count)
+otx_wave_next(otx_mapper *m, otx_pqueue *queue, otx_fit *fits, int32_t *count)
 {
-    otx_queue_entry held[HELD_MOST], entry;
+    otx_pqueue_entry held[HELD_MOST], entry;
     int32_t held_count = 0, most = 1;
 
     *count = 0;
     ++m->wave_count;
     while (*count < most && held_count < HELD_MOST &&
-           otx_queue_pop(queue, &entry))
+           otx_pqueue_pop(queue, &entry))
     {
         if (is_stale(m, &entry))
             continue;
@@ -111,7 +111,7 @@ otx_wave_next(otx_mapper *m, otx_queue *queue, otx_fit *fits, int32_t *count)
         fits[(*count)++] = (otx_fit){.node = entry.item};
     }
     for (int32_t i = 0; i < held_count; ++i)
-        if (!otx_queue_push(queue, held[i].key, held[i].item))
+        if (!otx_pqueue_push(queue, held[i].key, held[i].item))
             return otx_fail_memory(m->run, "map");
     return OSDTEX_OK;
 }

@@ -6,7 +6,7 @@
  * stretches it least; in masonry that is from one head joint to another. */
 #include "method/material/strips.h"
 
-#include "image/courses.h"
+#include "analysis/courses.h"
 
 #include <string.h>
 

@@ -10,11 +10,11 @@
 #ifndef OTX_METHOD_MATERIAL_H
 #define OTX_METHOD_MATERIAL_H
 
+#include "analysis/analysis.h"
+#include "analysis/courses.h"
 #include "field/nested.h"
 #include "field/scale.h"
 #include "field/singularity.h"
-#include "image/analysis.h"
-#include "image/courses.h"
 #include "method/material/rings.h"
 #include "method/method.h"
 

@@ -1,7 +1,7 @@
 /* settle.c -- periodic coordinates once their whole cells are known. */
 #include "method/material/settle.h"
 
-#include "base/queue.h"
+#include "base/pqueue.h"
 #include "math/sparse.h"
 
 #include <stdlib.h>
@@ -77,7 +77,7 @@ typedef struct search
     int8_t *carried;
     int32_t *touched;
     int32_t touched_count;
-    otx_queue queue;
+    otx_pqueue queue;
 } search;
 
 static int32_t
@@ -98,7 +98,7 @@ visit(search *q, int32_t face, double length, int32_t edge, int carried)
     q->length[face] = length;
     q->came[face] = edge;
     q->carried[face] = (int8_t)carried;
-    return otx_queue_push(&q->queue, length, face);
+    return otx_pqueue_push(&q->queue, length, face);
 }
 
 static void
@@ -138,13 +138,13 @@ static bool
 find_escape(search *q, int32_t face, escape *out)
 {
     const otx_connection *c = q->s->c;
-    otx_queue_entry entry;
+    otx_pqueue_entry entry;
     bool fine;
 
     forget(q);
     *out = (escape){INFINITY, face, -1, -1, q->charge[face]};
     fine = visit(q, face, 0.0, -1, q->charge[face]);
-    while (fine && otx_queue_pop(&q->queue, &entry))
+    while (fine && otx_pqueue_pop(&q->queue, &entry))
     {
         const int32_t at = entry.item;
 
@@ -285,7 +285,7 @@ otx_settle_cancel(otx_phase_solver *s)
         .came = OTX_NEW(scratch, int32_t, faces),
         .carried = OTX_NEW(scratch, int8_t, faces),
         .touched = OTX_NEW(scratch, int32_t, faces),
-        .queue = otx_queue_make(scratch)};
+        .queue = otx_pqueue_make(scratch)};
 
     if (!q.charge || !q.sink || !q.length || !q.came || !q.carried ||
         !q.touched)

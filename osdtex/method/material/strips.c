@@ -1,7 +1,7 @@
 /* strips.c -- the courses on a surface, one by one. */
 #include "method/material/strips.h"
 
-#include "base/queue.h"
+#include "base/pqueue.h"
 #include "mapping/seam.h"
 
 #include <stdlib.h>
@@ -207,7 +207,7 @@ typedef struct tour
 {
     int32_t *first, *list; /* contacts of each strip */
     uint8_t *seen;
-    otx_queue queue;
+    otx_pqueue queue;
 } tour;
 
 static otx_status
@@ -218,7 +218,7 @@ prepare_tour(const otx_strips *s, tour *t)
     *t = (tour){
         OTX_ZNEW(scratch, int32_t, s->count + 2),
         OTX_NEW(scratch, int32_t, 2 * (int64_t)s->contact_count),
-        OTX_ZNEW(scratch, uint8_t, s->count), otx_queue_make(scratch)};
+        OTX_ZNEW(scratch, uint8_t, s->count), otx_pqueue_make(scratch)};
     if (!t->first || !t->list || !t->seen)
         return OSDTEX_ERROR_MEMORY;
     for (int32_t i = 0; i < s->contact_count; ++i)
@@ -241,7 +241,7 @@ push_contacts(const otx_strips *s, tour *t, int32_t strip)
 {
     t->seen[strip] = 1;
     for (int32_t i = t->first[strip]; i < t->first[strip + 1]; ++i)
-        if (!otx_queue_push(
+        if (!otx_pqueue_push(
                 &t->queue, -fabs(s->contacts[t->list[i]].agree), t->list[i]))
             return false;
     return true;
@@ -251,20 +251,20 @@ otx_status
 otx_strips_visit(otx_strips *s, otx_strips_visitor *visitor)
 {
     const otx_arena_mark mark = otx_arena_here(s->m->run->scratch);
-    otx_queue seeds = otx_queue_make(s->m->run->scratch);
-    otx_queue_entry seed, entry;
+    otx_pqueue seeds = otx_pqueue_make(s->m->run->scratch);
+    otx_pqueue_entry seed, entry;
     tour t;
     bool fine = prepare_tour(s, &t) == OSDTEX_OK;
 
     for (int32_t i = 0; fine && i < s->count; ++i)
-        fine = otx_queue_push(&seeds, -(double)s->strips[i].faces, i);
-    while (fine && otx_queue_pop(&seeds, &seed))
+        fine = otx_pqueue_push(&seeds, -(double)s->strips[i].faces, i);
+    while (fine && otx_pqueue_pop(&seeds, &seed))
     {
         if (t.seen[seed.item])
             continue;
         visitor(s, seed.item, -1, NULL);
         fine = push_contacts(s, &t, seed.item);
-        while (fine && otx_queue_pop(&t.queue, &entry))
+        while (fine && otx_pqueue_pop(&t.queue, &entry))
         {
             const otx_strip_contact *c = &s->contacts[entry.item];
             const bool back = t.seen[c->b];

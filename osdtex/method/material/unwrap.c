@@ -2,12 +2,13 @@
  */
 #include "method/material/phase.h"
 
-#include "base/queue.h"
+#include "base/pqueue.h"
 
 /* -- distance ------------------------------------------------------------ */
 
 static bool
-reach(const otx_connection *c, otx_queue *queue, double *distance, int32_t face)
+reach(
+    const otx_connection *c, otx_pqueue *queue, double *distance, int32_t face)
 {
     for (int32_t i = c->level->face_first[face];
          i < c->level->face_first[face + 1]; ++i)
@@ -24,7 +25,7 @@ reach(const otx_connection *c, otx_queue *queue, double *distance, int32_t face)
         if (!(d < distance[other]))
             continue;
         distance[other] = d;
-        if (!otx_queue_push(queue, d, other))
+        if (!otx_pqueue_push(queue, d, other))
             return false;
     }
     return true;
@@ -36,8 +37,8 @@ otx_phase_distance(
 {
     double *distance = OTX_NEW(run->arena, double, c->level->face_count);
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    otx_queue queue = otx_queue_make(run->scratch);
-    otx_queue_entry entry;
+    otx_pqueue queue = otx_pqueue_make(run->scratch);
+    otx_pqueue_entry entry;
     bool fine = distance != NULL;
 
     *out = distance;
@@ -45,9 +46,9 @@ otx_phase_distance(
     {
         distance[f] = marked[f] ? 0.0 : INFINITY;
         if (marked[f])
-            fine = otx_queue_push(&queue, 0.0, f);
+            fine = otx_pqueue_push(&queue, 0.0, f);
     }
-    while (fine && otx_queue_pop(&queue, &entry))
+    while (fine && otx_pqueue_pop(&queue, &entry))
         if (entry.key <= distance[entry.item])
             fine = reach(c, &queue, distance, entry.item);
     otx_arena_release(run->scratch, mark);
@@ -61,7 +62,7 @@ typedef struct walk
     otx_phase *phase;
     const double *distance;
     int8_t *flip; /* [face_count] 0 not visited, else the face's sense */
-    otx_queue queue;
+    otx_pqueue queue;
 } walk;
 
 /* Of the visited neighbours the one farthest from a defect, and the edge to
@@ -125,7 +126,7 @@ push_neighbours(walk *w, int32_t face)
         const int32_t other = faces[faces[0] == face];
 
         if (c->inner[e] && w->flip[other] == 0 &&
-            !otx_queue_push(&w->queue, -w->distance[other], other))
+            !otx_pqueue_push(&w->queue, -w->distance[other], other))
             return false;
     }
     return true;
@@ -135,7 +136,7 @@ push_neighbours(walk *w, int32_t face)
 static bool
 visit_all(walk *w, int32_t face)
 {
-    otx_queue_entry entry = {0.0, face};
+    otx_pqueue_entry entry = {0.0, face};
 
     do
     {
@@ -151,7 +152,7 @@ visit_all(walk *w, int32_t face)
             w->flip[entry.item] = 1;
         if (!push_neighbours(w, entry.item))
             return false;
-    } while (otx_queue_pop(&w->queue, &entry));
+    } while (otx_pqueue_pop(&w->queue, &entry));
     return true;
 }
 
@@ -162,14 +163,14 @@ otx_phase_unwrap(otx_run *run, otx_phase *phase, const double *distance)
     const int32_t count = phase->connection->level->face_count;
     walk w = {
         phase, distance, OTX_ZNEW(run->arena, int8_t, count),
-        otx_queue_make(run->scratch)};
-    otx_queue seeds = otx_queue_make(run->scratch);
-    otx_queue_entry entry;
+        otx_pqueue_make(run->scratch)};
+    otx_pqueue seeds = otx_pqueue_make(run->scratch);
+    otx_pqueue_entry entry;
     bool fine = w.flip != NULL;
 
     for (int32_t f = 0; fine && f < count; ++f)
-        fine = otx_queue_push(&seeds, -distance[f], f);
-    while (fine && otx_queue_pop(&seeds, &entry))
+        fine = otx_pqueue_push(&seeds, -distance[f], f);
+    while (fine && otx_pqueue_pop(&seeds, &entry))
         if (w.flip[entry.item] == 0)
             fine = visit_all(&w, entry.item);
     phase->sense = w.flip;

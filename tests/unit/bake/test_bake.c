@@ -581,7 +581,7 @@ failing_any_allocation_leaves_nothing(void **state)
     for (int64_t stop = 0; status != OSDTEX_OK; ++stop)
     {
         test_ration f = {INT64_MAX};
-        const otx_heap_hooks hooks = test_ration_hooks(&f);
+        const otx_allocator_hooks hooks = test_ration_hooks(&f);
         otx_run *run = test_run_create_with(&hooks, 1);
         const otx_surface *surface = flat_surface(run, 6, 3);
         otx_mapping *mapping = flat_mapping(run, surface, 6.0);

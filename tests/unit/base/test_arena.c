@@ -38,8 +38,8 @@ release_runs_what_was_deferred_since_the_mark(void **state)
 {
     otx_run *run = *state;
     int before = 0, after = 0;
-    const size_t used = otx_heap_used(run->heap);
-    otx_arena *arena = otx_arena_create(run->heap);
+    const size_t used = otx_allocator_used(run->allocator);
+    otx_arena *arena = otx_arena_create(run->allocator);
     otx_arena_mark mark;
 
     assert_true(otx_arena_defer(arena, note_call, &before));
@@ -51,39 +51,39 @@ release_runs_what_was_deferred_since_the_mark(void **state)
     assert_int_equal(after, 1);
     otx_arena_destroy(arena);
     assert_int_equal(before, 1);
-    assert_int_equal(otx_heap_used(run->heap), used);
+    assert_int_equal(otx_allocator_used(run->allocator), used);
 }
 
 static void
 a_limit_is_kept(void **state)
 {
-    const otx_heap_hooks hooks = {.limit_bytes = 1 << 20};
-    otx_heap *heap = otx_heap_create(&hooks);
-    otx_arena *arena = otx_arena_create(heap);
+    const otx_allocator_hooks hooks = {.limit_bytes = 1 << 20};
+    otx_allocator *allocator = otx_allocator_create(&hooks);
+    otx_arena *arena = otx_arena_create(allocator);
 
     (void)state;
     assert_null(OTX_NEW(arena, char, 2 << 20));
     assert_non_null(OTX_NEW(arena, char, 1 << 19));
     assert_null(OTX_NEW(arena, char, 1 << 19));
     otx_arena_destroy(arena);
-    assert_int_equal(otx_heap_used(heap), 0);
-    assert_true(otx_heap_peak(heap) <= 1 << 20);
-    otx_heap_destroy(heap);
+    assert_int_equal(otx_allocator_used(allocator), 0);
+    assert_true(otx_allocator_peak(allocator) <= 1 << 20);
+    otx_allocator_destroy(allocator);
 }
 
 static void
 what_is_held_outlives_its_owner(void **state)
 {
-    otx_heap *heap = otx_heap_create(NULL);
-    otx_arena *held = otx_arena_create(heap);
-    otx_arena *holder = otx_arena_create(heap);
+    otx_allocator *allocator = otx_allocator_create(NULL);
+    otx_arena *held = otx_arena_create(allocator);
+    otx_arena *holder = otx_arena_create(allocator);
     int calls = 0;
 
     (void)state;
     assert_true(otx_arena_defer(held, note_call, &calls));
     assert_true(otx_arena_hold(holder, held));
     /* Both owners leave before the holder does. */
-    otx_heap_destroy(heap);
+    otx_allocator_destroy(allocator);
     otx_arena_destroy(held);
     assert_int_equal(calls, 0);
     otx_arena_destroy(holder);

@@ -125,7 +125,7 @@ test_prefixes_fail(
     snprintf(cut, sizeof cut, "%s/cut", folder->path);
     for (size_t n = 0; n + spare < bytes; ++n)
     {
-        const size_t used = otx_heap_used(run->heap);
+        const size_t used = otx_allocator_used(run->allocator);
         otx_picture picture;
         otx_status status;
 
@@ -136,7 +136,7 @@ test_prefixes_fail(
         assert_true(status < 0);
         assert_null(picture.image.pixels);
         /* Findings may grow by the first of their kind. */
-        assert_true(otx_heap_used(run->heap) < used + (1u << 20));
+        assert_true(otx_allocator_used(run->allocator) < used + (1u << 20));
     }
 }
 

@@ -275,7 +275,7 @@ test_sizes_are_limited_before_memory_is_taken(void **state)
     /* The core finds by itself that such a file would have to be longer. */
     claim_size(f, "c.exr", 2000000000, 2000000000);
     refuse(f, "c.exr", OSDTEX_ERROR_FORMAT, "damaged");
-    assert_true(otx_heap_peak(f->run->heap) < 100u << 20);
+    assert_true(otx_allocator_peak(f->run->allocator) < 100u << 20);
 }
 
 /* Our writer refuses such values, so the bytes of an uncompressed file are

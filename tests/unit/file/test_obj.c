@@ -471,7 +471,7 @@ memory_may_end_anywhere(void **state)
     for (int k = 0; status != OSDTEX_OK; ++k)
     {
         test_ration ration = {1000};
-        const otx_heap_hooks hooks = test_ration_hooks(&ration);
+        const otx_allocator_hooks hooks = test_ration_hooks(&ration);
         otx_run *run = test_run_create_with(&hooks, 1);
         otx_obj obj;
 

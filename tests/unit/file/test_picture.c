@@ -64,7 +64,7 @@ test_memory_limit_is_an_error(void **state)
         OSDTEX_OK);
     for (size_t limit = 1u << 19; limit < 1u << 22; limit += 1u << 18)
     {
-        const otx_heap_hooks hooks = {.limit_bytes = limit};
+        const otx_allocator_hooks hooks = {.limit_bytes = limit};
         otx_run *run = test_run_create_with(&hooks, 1);
         otx_picture picture;
         const otx_status png =
@@ -121,7 +121,7 @@ survive(const char *path)
     const otx_status status = otx_picture_read(run, path, &picture);
 
     assert_true(seconds() - start < 10.0);
-    assert_true(otx_heap_peak(run->heap) < (size_t)2 << 30);
+    assert_true(otx_allocator_peak(run->allocator) < (size_t)2 << 30);
     if (status == OSDTEX_OK)
         assert_true(all_finite(&picture.image));
     else
@@ -198,7 +198,7 @@ test_bombs_are_refused_at_once(void **state)
     {
         assert_int_equal(
             otx_picture_read(run, path, &picture), OSDTEX_ERROR_LIMIT);
-        assert_true(otx_heap_peak(run->heap) < 10u << 20);
+        assert_true(otx_allocator_peak(run->allocator) < 10u << 20);
     }
     test_run_destroy(run);
 }

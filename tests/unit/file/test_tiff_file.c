@@ -320,7 +320,7 @@ test_sizes_are_limited_before_memory_is_taken(void **state)
         assert_int_equal(
             otx_picture_read(run, path, &picture), OSDTEX_ERROR_LIMIT);
     }
-    assert_true(otx_heap_peak(run->heap) < 10u << 20);
+    assert_true(otx_allocator_peak(run->allocator) < 10u << 20);
     test_folder_remove(&folder);
     test_run_destroy(run);
 }
@@ -379,7 +379,7 @@ test_damaged_files_do_no_harm(void **state)
         data[at] = kept;
         otx_arena_release(run->arena, mark);
     }
-    assert_true(otx_heap_peak(run->heap) < (size_t)2 << 30);
+    assert_true(otx_allocator_peak(run->allocator) < (size_t)2 << 30);
     test_folder_remove(&folder);
     test_run_destroy(run);
 }

@@ -43,7 +43,7 @@ test_limits_are_kept(void **state)
 static void
 test_memory_limit_is_an_error(void **state)
 {
-    const otx_heap_hooks hooks = {.limit_bytes = 8u << 20};
+    const otx_allocator_hooks hooks = {.limit_bytes = 8u << 20};
     otx_run *run = test_run_create_with(&hooks, 1);
     otx_image image;
 

@@ -583,7 +583,7 @@ static void
 running_out_of_memory_is_a_status(void **state)
 {
     test_ration b = {.left = INT64_MAX};
-    const otx_heap_hooks hooks = test_ration_hooks(&b);
+    const otx_allocator_hooks hooks = test_ration_hooks(&b);
     bool done = false;
 
     (void)state;

@@ -43,7 +43,7 @@ make_exemplar(otx_run *run, int32_t side, bool wrap)
 
 static job *
 make_job_with(
-    const otx_heap_hooks *hooks, int32_t threads, const char *cage,
+    const otx_allocator_hooks *hooks, int32_t threads, const char *cage,
     int32_t level, double images, bool wrap)
 {
     otx_run *run = test_run_create_with(hooks, threads);
@@ -561,7 +561,7 @@ failing_any_allocation_leaves_nothing(void **state)
              stop += 1 + stop / 8)
         {
             test_ration f = {INT64_MAX};
-            const otx_heap_hooks hooks = test_ration_hooks(&f);
+            const otx_allocator_hooks hooks = test_ration_hooks(&f);
             job *j = make_job_with(&hooks, 1, "sphere", 1, 6.0, true);
 
             set(j, "mode", modes[k]);

@@ -6,7 +6,7 @@
 #include "mapping/measure.h"
 #include "mapping/source.h"
 #include "method/hierarchical/hierarchical.h"
-#include "relax/reach.h"
+#include "surface/distance.h"
 
 #include <stdlib.h>
 
@@ -124,7 +124,7 @@ distances(job *j)
     double *away = OTX_NEW(j->run->arena, double, count);
 
     assert_int_equal(
-        otx_reach_measure(
+        otx_distance_measure(
             j->run, j->surface, j->demand, SIDE / j->request.scale, INFINITY,
             away),
         OSDTEX_OK);

@@ -1,8 +1,8 @@
 /* test_sheet.c -- one variable per vertex and patch, seams with both sides. */
 #include "grid.h"
 
-#include "relax/reach.h"
 #include "relax/sheet.h"
+#include "surface/distance.h"
 
 static otx_vec2 *
 corner_uvs(otx_run *run, const otx_surface *s)
@@ -83,7 +83,7 @@ what_is_out_of_reach_is_left_out(void **state)
     int32_t fixed = 0;
 
     (void)state;
-    assert_int_equal(otx_reach_mark(run, s, patch, 1.0, &inside), OSDTEX_OK);
+    assert_int_equal(otx_distance_mark(run, s, patch, 1.0, &inside), OSDTEX_OK);
     for (int32_t f = 0; f < 6; ++f)
         assert_int_equal(inside[f], f > 0 && f < 5);
     assert_int_equal(

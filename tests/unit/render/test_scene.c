@@ -198,7 +198,8 @@ running_out_of_memory_leaks_nothing(void **state)
     for (int64_t k = 1; failed; ++k)
     {
         failing f = {0};
-        const otx_heap_hooks hooks = {failing_alloc, failing_release, &f, 0};
+        const otx_allocator_hooks hooks = {
+            failing_alloc, failing_release, &f, 0};
         otx_run *run = test_run_create_with(&hooks, 2);
         const otx_scene_texture texture = texture_of(run, 256, true);
         otx_scene scene = scene_sphere(run, 32);

@@ -15,7 +15,7 @@ expect(
 
     /* Like findings of an earlier call would fold into one. */
     otx_diagnostics_destroy(run->diagnostics);
-    run->diagnostics = otx_diagnostics_create(run->heap);
+    run->diagnostics = otx_diagnostics_create(run->allocator);
     got = otx_cage_build(run, in, &options, &cage);
     if (got != status || !strstr(test_last_message(run), words))
         fail_msg(

@@ -448,7 +448,7 @@ test_limits_come_before_memory(void **state)
     otx_run *run = test_run_create();
     const otx_cage_input in = mesh_cube(run);
     const otx_cage cage = mesh_build(run, &in, NULL);
-    const size_t peak = otx_heap_peak(run->heap);
+    const size_t peak = otx_allocator_peak(run->allocator);
     const size_t bytes = otx_surface_bytes(&cage, 6);
     otx_surface s;
 
@@ -457,11 +457,12 @@ test_limits_come_before_memory(void **state)
     assert_int_equal(
         otx_surface_refine(run, &cage, 6, bytes - 1, &s), OSDTEX_ERROR_LIMIT);
     /* The sentence takes some; the levels would take megabytes. */
-    assert_true(otx_heap_peak(run->heap) < peak + 262144 && bytes > 4000000);
+    assert_true(
+        otx_allocator_peak(run->allocator) < peak + 262144 && bytes > 4000000);
     assert_null(s.levels);
     assert_non_null(strstr(test_last_message(run), "use --level 5"));
     assert_int_equal(otx_surface_refine(run, &cage, 6, bytes, &s), OSDTEX_OK);
-    assert_true(otx_heap_peak(run->heap) < bytes);
+    assert_true(otx_allocator_peak(run->allocator) < bytes);
     assert_int_equal(
         otx_surface_refine(run, &cage, 11, 0, &s), OSDTEX_ERROR_ARGUMENT);
     assert_int_equal(
@@ -526,21 +527,21 @@ typedef struct failing_heap
 static void *
 failing_alloc(void *user, size_t bytes)
 {
-    failing_heap *heap = user;
+    failing_heap *allocator = user;
 
-    if (atomic_fetch_sub(&heap->left, 1) <= 0)
+    if (atomic_fetch_sub(&allocator->left, 1) <= 0)
         return NULL;
-    atomic_fetch_add(&heap->blocks, 1);
+    atomic_fetch_add(&allocator->blocks, 1);
     return malloc(bytes);
 }
 
 static void
 failing_release(void *user, void *block, size_t bytes)
 {
-    failing_heap *heap = user;
+    failing_heap *allocator = user;
 
     (void)bytes;
-    atomic_fetch_sub(&heap->blocks, 1);
+    atomic_fetch_sub(&allocator->blocks, 1);
     free(block);
 }
 
@@ -564,18 +565,19 @@ test_failing_allocations_leak_nothing(void **state)
     (void)state;
     for (int32_t k = 0; status != OSDTEX_OK; ++k)
     {
-        failing_heap heap = {INT32_MAX, 0};
-        const otx_heap_hooks hooks = {failing_alloc, failing_release, &heap, 0};
+        failing_heap allocator = {INT32_MAX, 0};
+        const otx_allocator_hooks hooks = {
+            failing_alloc, failing_release, &allocator, 0};
         otx_run *run = test_run_create_with(&hooks, 2);
         const otx_cage_input in = mesh_islands(run);
 
-        heap.left = k;
+        allocator.left = k;
         status = build_and_refine(run, &in);
-        heap.left = INT32_MAX;
+        allocator.left = INT32_MAX;
         assert_true(status == OSDTEX_OK || status == OSDTEX_ERROR_MEMORY);
         failures += status != OSDTEX_OK;
         test_run_destroy(run);
-        assert_int_equal(heap.blocks, 0);
+        assert_int_equal(allocator.blocks, 0);
     }
     assert_true(failures > 10);
 }

@@ -1,0 +1,23 @@
+/* colour_known.h -- the spaces that pipelines agree upon, however they are
+ * called. For the files of colour only. */
+#ifndef OTX_COLOUR_COLOUR_KNOWN_H
+#define OTX_COLOUR_COLOUR_KNOWN_H
+
+#include "colour/colour.h"
+
+/* The space that a file's tag names: as it is, else by another name of the
+ * same space. NULL where the configuration has none. */
+const char *otx_colour_known_tagged(const otx_colour *colour, const char *tag);
+
+/* The well-known linear space of this colorInteropID, by its usual names, else
+ * by its primaries; NULL where the configuration has none. */
+const char *otx_colour_known_by_id(const otx_colour *colour, const char *id);
+
+/* The first linear space that is found by one of its usual names. */
+const char *otx_colour_known_linear(const otx_colour *colour);
+
+/* The linear space of these primaries and white, whatever its name. */
+const char *
+otx_colour_known_by_chromaticities(const otx_colour *colour, const float xy[8]);
+
+#endif
