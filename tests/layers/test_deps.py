@@ -108,7 +108,7 @@ def shell_commands(text):
 
 def shell_files():
     yield from sorted((ROOT / "tests").rglob("*.sh"))
-    for name in ("demo", "test", "test-summary", "make-man"):
+    for name in ("demo", "fuzz", "test", "test-summary", "make-man"):
         yield ROOT / "tools" / name
 
 
