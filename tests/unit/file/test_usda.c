@@ -97,8 +97,8 @@ everything_of_a_cage_is_said(void **state)
         "def GeomSubset \"group_0_left_arm\"",
         "def GeomSubset \"group_1_left_arm\"",
         "uniform token info:id = \"UsdPreviewSurface\"",
-        "asset inputs:file = @shirts.<UDIM>.exr@ (\n"
-        "                colorSpace = \"lin_ap1_scene\"\n            )\n",
+        ("asset inputs:file = @shirts.<UDIM>.exr@ (\n"
+         "                colorSpace = \"lin_ap1_scene\"\n            )\n"),
         "token inputs:sourceColorSpace = \"raw\"",
     };
     otx_run *run = test_run_create();
