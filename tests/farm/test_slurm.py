@@ -91,7 +91,7 @@ class Slurm(JobTest):
         self.start("slurmctld", "-D", "-f", self.conf)
         self.start("slurmd", "-D", "-f", self.conf)
         wait_until(
-            lambda: "idle" in self.slurm("sinfo", "-h", "-o", "%T"), 30,
+            lambda: "idle" in self.slurm("sinfo", "-h", "-o", "%T"), 120,
             "the node is idle")
 
     def start(self, *words, **more):
@@ -123,7 +123,7 @@ class Slurm(JobTest):
             *(f"--{n}={folder / n.split('-')[0]}"
               for n in ("socket", "pid-file", "log-file", "seed-file")),
             user=user.pw_uid, group=user.pw_gid, extra_groups=[])
-        wait_until((folder / "socket").exists, 10, "munged has its socket")
+        wait_until((folder / "socket").exists, 60, "munged has its socket")
 
     def slurm(self, *words):
         result = subprocess.run(
