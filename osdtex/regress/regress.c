@@ -352,8 +352,8 @@ run_as_json(const bench *b, json_t *results)
     strftime(when, sizeof when, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
     return json_pack(
         "{s:s,s:s,s:s,s:s,s:s,s:O}", "suite", b->options->folder, "version",
-        osdtex_version(), "build", osdtex_build(), "machine", b->machine, "time", when, "cases",
-        results);
+        osdtex_version(), "build", osdtex_build(), "machine", b->machine,
+        "time", when, "cases", results);
 }
 
 static bool
