@@ -5,7 +5,7 @@
 #include <osdtex/common.h>
 
 #define OSDTEX_VERSION_MAJOR 0
-#define OSDTEX_VERSION_MINOR 1
+#define OSDTEX_VERSION_MINOR 2
 #define OSDTEX_VERSION_PATCH 0
 
 OSDTEX_BEGIN_DECLS

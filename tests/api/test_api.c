@@ -106,7 +106,7 @@ names_and_versions(void **state)
     char hash[OSDTEX_HASH_BYTES];
 
     (void)state;
-    assert_string_equal(osdtex_version(), "0.1.0");
+    assert_string_equal(osdtex_version(), "0.2.0");
     assert_string_equal(osdtex_status_name(OSDTEX_OK), "OK");
     assert_string_equal(osdtex_status_name(OSDTEX_ERROR_COLOUR), "COLOUR");
     assert_string_equal(osdtex_status_name(1), "UNKNOWN");
