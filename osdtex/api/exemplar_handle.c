@@ -2,6 +2,7 @@
 #include "analysis/analysis.h"
 #include "api/call.h"
 #include "api/handle.h"
+#include "api/picture_source.h"
 #include "base/hash.h"
 #include "file/picture.h"
 #include "quilt/period.h"
@@ -236,14 +237,8 @@ read_exemplar(
     OTX_TRY(keep_source(&call->run, path, &input));
     input.pixels = picture.image;
     input.alpha_is_premultiplied = picture.alpha_is_premultiplied;
+    otx_picture_source_fill(&picture, &input.source);
     input.source.from = ours.from;
-    input.source.interop_id = picture.interop_id;
-    input.source.oiio_space = picture.oiio_space;
-    input.source.has_chromaticities = picture.has_chromaticities;
-    input.source.is_float = picture.is_float;
-    memcpy(
-        input.source.chromaticities, picture.chromaticities,
-        sizeof picture.chromaticities);
     if (picture.tiles)
     {
         ours.wrap = OSDTEX_WRAP_NO;

@@ -3,6 +3,8 @@
  * space that light is added up in. */
 #include "api/call.h"
 #include "api/handle.h"
+#include "api/picture_source.h"
+#include "colour/decoder.h"
 #include "file/mtl.h"
 #include "file/obj.h"
 #include "file/picture.h"
@@ -58,19 +60,14 @@ static otx_status
 linearise(loader *l, const char *path, otx_picture *picture)
 {
     otx_run *run = &l->call->run;
+    const otx_decoder *decoder;
     const char *space;
-    otx_colour_source about = {
-        .path = path,
-        .interop_id = picture->interop_id,
-        .oiio_space = picture->oiio_space,
-        .has_chromaticities = picture->has_chromaticities,
-        .is_float = picture->is_float,
-    };
+    otx_colour_source about = {.path = path};
 
-    memcpy(
-        about.chromaticities, picture->chromaticities,
-        sizeof about.chromaticities);
-    OTX_TRY(otx_colour_resolve(run, l->colour, &about, &space));
+    otx_picture_source_fill(picture, &about);
+    OTX_TRY(otx_colour_resolve(run, l->colour, &about, &space, &decoder));
+    if (decoder)
+        OTX_TRY(otx_decoder_apply(run, decoder, &picture->image));
     return otx_colour_convert(
         run, l->colour, space, l->linear, &picture->image);
 }

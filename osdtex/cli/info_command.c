@@ -52,6 +52,8 @@ print_cage(const osdtex_cage_info *c)
 static void
 print_exemplar(const osdtex_exemplar_info *e)
 {
+    /* A profile or the like stands there in words. */
+    const char *quote = strchr(e->source_space, '\'') ? "" : "'";
     static const char *const tiles[2][2] = {
         {"in no direction", "bottom to top"}, {"left to right", "both ways"}};
 
@@ -60,8 +62,8 @@ print_exemplar(const osdtex_exemplar_info *e)
         "  size        %d x %d, %d channels, %s\n", e->width, e->height,
         e->channels, e->type);
     printf(
-        "  colours     from '%s' to '%s', compared in '%s' (%s)\n",
-        e->source_space, e->linear_space,
+        "  colours     from %s%s%s to '%s', compared in '%s' (%s)\n", quote,
+        e->source_space, quote, e->linear_space,
         e->match_space ? e->match_space : "the sRGB curve", e->embedding);
     printf(
         "  tiles       %s%s\n", tiles[e->wrap_x != 0][e->wrap_y != 0],

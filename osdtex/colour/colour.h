@@ -28,6 +28,9 @@ otx_status otx_colour_find(
     otx_run *run, const otx_colour *colour, const char *what, const char *name,
     const char **space);
 
+/* How the numbers of a file are decoded, see decoder.h. */
+struct otx_decoder;
+
 /* What is known about the colours of a file. Strings may be NULL. */
 typedef struct otx_colour_source
 {
@@ -38,14 +41,27 @@ typedef struct otx_colour_source
     bool has_chromaticities;
     bool is_float;           /* half or float samples */
     float chromaticities[8]; /* R, G, B, W xy pairs */
+    /* Of PNG, TIFF and JPEG. */
+    const uint8_t *icc; /* [icc_bytes], NULL none; not looked at yet */
+    size_t icc_bytes;
+    const char *icc_fault; /* why there is none though the file has one */
+    float gamma;           /* the encoding exponent, 0 not stated */
+    bool says_srgb;
+    bool says_adobe_rgb;
+    bool is_gray;
 } otx_colour_source;
 
 /* The colour space of a file: --from, else colorInteropID, else
- * oiio:ColorSpace, else chromaticities, else a file rule that is not the
- * Default rule, else sRGB for integers and scene_linear for floats. */
+ * oiio:ColorSpace, else ICC profile, Exif, gamma or chromaticities, else a file
+ * rule that is not the Default rule, else sRGB for integers and scene_linear
+ * for floats. A rule that finds data beats a profile.
+ *
+ *   decoder  NULL where `*space` is the space of the file's numbers; else what
+ *            brings them there first. In run->arena. May be NULL: then
+ *            nothing that needs one is looked at. */
 otx_status otx_colour_resolve(
     otx_run *run, const otx_colour *colour, const otx_colour_source *source,
-    const char **space);
+    const char **space, const struct otx_decoder **decoder);
 
 /* The space of linear light that the configuration works in: role
  * scene_linear, else a well-known linear space, else NULL. */

@@ -233,6 +233,17 @@ measure(
     return true;
 }
 
+bool
+otx_colour_from_aces(
+    const otx_colour *colour, const char *space,
+    otx_primaries_matrix *from_aces)
+{
+    otx_primaries_matrix to_aces;
+
+    return measure(colour, space, &to_aces) &&
+           otx_primaries_invert(to_aces, from_aces);
+}
+
 static const known_space *
 known_by_matrix(const otx_primaries_matrix *to_aces)
 {

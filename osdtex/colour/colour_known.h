@@ -4,6 +4,7 @@
 #define OTX_COLOUR_COLOUR_KNOWN_H
 
 #include "colour/colour.h"
+#include "colour/primaries.h"
 
 /* The space that a file's tag names: as it is, else by another name of the
  * same space. NULL where the configuration has none. */
@@ -12,6 +13,12 @@ const char *otx_colour_known_tagged(const otx_colour *colour, const char *tag);
 /* The well-known linear space of this colorInteropID, by its usual names, else
  * by its primaries; NULL where the configuration has none. */
 const char *otx_colour_known_by_id(const otx_colour *colour, const char *id);
+
+/* The matrix from ACES2065-1 to a linear space, measured; false where it is not
+ * linear or there is nothing to measure by. */
+bool otx_colour_from_aces(
+    const otx_colour *colour, const char *space,
+    otx_primaries_matrix *from_aces);
 
 /* The first linear space that is found by one of its usual names. */
 const char *otx_colour_known_linear(const otx_colour *colour);

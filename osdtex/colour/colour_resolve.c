@@ -5,6 +5,7 @@
  * rule is no rule: in the older ACES configurations it calls every PNG
  * ACES2065-1. */
 #include "colour/colour_known.h"
+#include "colour/decoder.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -32,21 +33,15 @@ resolve_tag(
     return space;
 }
 
+/* A space of the configuration that has the primaries of a linear file. */
 static const char *
 resolve_chromaticities(
-    otx_run *run, const otx_colour *colour, const otx_colour_source *source)
+    const otx_colour *colour, const otx_colour_source *source)
 {
-    const char *space = NULL;
-
-    if (!source->has_chromaticities)
-        return NULL;
-    space = otx_colour_known_by_chromaticities(colour, source->chromaticities);
-    if (!space)
-        otx_note(
-            run, OSDTEX_SEVERITY_WARNING, stage, otx_where_file(source->path),
-            "passing over the chromaticities, which no linear space of the "
-            "configuration has; say --from to name the space");
-    return space;
+    return source->is_float && source->has_chromaticities
+               ? otx_colour_known_by_chromaticities(
+                     colour, source->chromaticities)
+               : NULL;
 }
 
 /* Whether `name` stands in `path` between characters that are no letters or
@@ -129,18 +124,46 @@ resolve_default(
         source->is_float ? "role scene_linear" : "space for sRGB textures");
 }
 
-otx_status
-otx_colour_resolve(
+/* What the file says of its encoding in other words than the name of a space.
+ * `*space` NULL: nothing that is of use. */
+static otx_status
+resolve_encoding(
+    otx_run *run, const otx_colour *colour, const otx_colour_source *source,
+    const char **space, const otx_decoder **decoder)
+{
+    const bool says_something =
+        source->icc || source->icc_fault || source->says_adobe_rgb ||
+        source->gamma != 0.0F || source->has_chromaticities;
+    const char *rule = NULL;
+
+    *space = NULL;
+    if (!decoder || !says_something)
+        return OSDTEX_OK;
+    /* Painters put the profile of their screen into every map. */
+    *space =
+        source->is_float ? NULL : resolve_file_rule(run, colour, source, &rule);
+    if (*space && otx_ocio_is_data(colour->config, *space))
+        return say_source(
+            run, source, *space, "the configuration's file rule ", rule);
+    *space = NULL;
+    OTX_TRY(otx_decoder_create(
+        run, colour, source, source->is_float && source->has_chromaticities,
+        decoder));
+    if (!*decoder)
+        return OSDTEX_OK;
+    *space = otx_decoder_space(*decoder);
+    otx_note(
+        run, OSDTEX_SEVERITY_INFO, stage, otx_where_file(source->path),
+        "input space: %s, brought to '%s'", otx_decoder_name(*decoder), *space);
+    return OSDTEX_OK;
+}
+
+/* The tags of an EXR, in their order. */
+static otx_status
+resolve_tags(
     otx_run *run, const otx_colour *colour, const otx_colour_source *source,
     const char **space)
 {
-    const char *rule = NULL;
-
-    if (source->from && source->from[0])
-    {
-        OTX_TRY(otx_colour_find(run, colour, "--from", source->from, space));
-        return say_source(run, source, *space, "--from", "");
-    }
     *space =
         resolve_tag(run, colour, source, "colorInteropID", source->interop_id);
     if (*space)
@@ -150,9 +173,31 @@ otx_colour_resolve(
     if (*space)
         return say_source(
             run, source, *space, "the file's oiio:ColorSpace", "");
-    *space = resolve_chromaticities(run, colour, source);
+    *space = resolve_chromaticities(colour, source);
     if (*space)
         return say_source(run, source, *space, "the file's chromaticities", "");
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_colour_resolve(
+    otx_run *run, const otx_colour *colour, const otx_colour_source *source,
+    const char **space, const otx_decoder **decoder)
+{
+    const char *rule = NULL;
+
+    if (decoder)
+        *decoder = NULL;
+    if (source->from && source->from[0])
+    {
+        OTX_TRY(otx_colour_find(run, colour, "--from", source->from, space));
+        return say_source(run, source, *space, "--from", "");
+    }
+    OTX_TRY(resolve_tags(run, colour, source, space));
+    if (!*space)
+        OTX_TRY(resolve_encoding(run, colour, source, space, decoder));
+    if (*space)
+        return OSDTEX_OK;
     *space = resolve_file_rule(run, colour, source, &rule);
     if (*space)
         return say_source(

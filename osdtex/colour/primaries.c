@@ -40,9 +40,9 @@ otx_primaries_difference(matrix a, matrix b)
     return largest;
 }
 
-/* The inverse by cofactors; false for a singular (or NaN) matrix. */
-static bool
-invert(matrix a, matrix *out)
+/* By cofactors. */
+bool
+otx_primaries_invert(matrix a, matrix *out)
 {
     matrix c;
     double det = 0.0;
@@ -111,7 +111,7 @@ to_xyz(const float xy[8], matrix *out)
         p.m[1][j] = (double)xy[2 * j + 1];
         p.m[2][j] = 1.0 - p.m[0][j] - p.m[1][j];
     }
-    if (!xyz_of_white(xy + 6, white) || !invert(p, &inverse))
+    if (!xyz_of_white(xy + 6, white) || !otx_primaries_invert(p, &inverse))
         return false;
     transform(&inverse, white, scale);
     *out = scale_columns(p, scale);
@@ -131,7 +131,7 @@ adapt(const float from[2], const float to[2], matrix *out)
     if (!xyz_of_white(from, white))
         return false;
     transform(&bradford, white, from_cone);
-    if (!xyz_of_white(to, white) || !invert(bradford, &inverse))
+    if (!xyz_of_white(to, white) || !otx_primaries_invert(bradford, &inverse))
         return false;
     transform(&bradford, white, to_cone);
     for (int i = 0; i < 3; ++i)
@@ -153,11 +153,30 @@ otx_primaries_to_aces(const float xy[8], matrix *to_aces)
     matrix adaptation;
 
     if (!to_xyz(xy, &rgb_to_xyz) || !to_xyz(aces_xy, &aces_to_xyz) ||
-        !invert(aces_to_xyz, &xyz_to_aces) ||
+        !otx_primaries_invert(aces_to_xyz, &xyz_to_aces) ||
         !adapt(xy + 6, aces_xy + 6, &adaptation))
         return false;
     *to_aces = otx_primaries_multiply(
         xyz_to_aces, otx_primaries_multiply(adaptation, rgb_to_xyz));
+    return true;
+}
+
+bool
+otx_primaries_xyz_to_aces(matrix *to_aces)
+{
+    /* Of the profile connection space [ICC.1, 7.2.16]: X, Z at Y = 1. */
+    const double white[3] = {0.9642, 1.0, 0.8249};
+    const double sum = white[0] + white[1] + white[2];
+    const float d50[2] = {(float)(white[0] / sum), (float)(white[1] / sum)};
+    matrix aces_to_xyz;
+    matrix xyz_to_aces;
+    matrix adaptation;
+
+    if (!to_xyz(aces_xy, &aces_to_xyz) ||
+        !otx_primaries_invert(aces_to_xyz, &xyz_to_aces) ||
+        !adapt(d50, aces_xy + 6, &adaptation))
+        return false;
+    *to_aces = otx_primaries_multiply(xyz_to_aces, adaptation);
     return true;
 }
 

@@ -25,6 +25,12 @@ double otx_primaries_difference(otx_primaries_matrix a, otx_primaries_matrix b);
  * not span a space. */
 bool otx_primaries_to_aces(const float xy[8], otx_primaries_matrix *to_aces);
 
+/* The matrix from CIE XYZ under D50, as ICC profiles have it, likewise. */
+bool otx_primaries_xyz_to_aces(otx_primaries_matrix *to_aces);
+
+/* False for a matrix that is singular or not finite. */
+bool otx_primaries_invert(otx_primaries_matrix a, otx_primaries_matrix *out);
+
 /* Chromaticities of the space with that matrix, as they are after adaptation
  * to the white of ACES. False when a colour has no brightness. */
 bool otx_primaries_from_aces(const otx_primaries_matrix *to_aces, float xy[8]);

@@ -6,6 +6,7 @@
  * not depend on the number of threads. */
 #include "exemplar/exemplar.h"
 
+#include "colour/decoder.h"
 #include "exemplar/tileable.h"
 #include "image/texture.h"
 
@@ -32,6 +33,7 @@ typedef struct build
     const otx_exemplar_input *input;
     otx_exemplar *out;
     const char *source_space;
+    const otx_decoder *decoder; /* of the file's numbers to it; NULL none */
     const char *linear_space;
     bool as_png;
     const char *pixel_space; /* what `linear` is in, where --to is data */
@@ -150,7 +152,7 @@ bring(build *b, otx_arena *arena, const char *space, otx_image *out)
     const otx_image *pixels = &b->input->pixels;
     const bool premultiplied = b->input->alpha_is_premultiplied;
     const bool has_alpha = pixels->channels == 2 || pixels->channels == 4;
-    const bool converts = strcmp(b->source_space, space) != 0;
+    const bool converts = b->decoder || strcmp(b->source_space, space) != 0;
     bringing g = {.b = b, .space = space, .to = out};
 
     OTX_TRY(otx_image_create(
@@ -160,6 +162,8 @@ bring(build *b, otx_arena *arena, const char *space, otx_image *out)
     g.multiply_alpha =
         has_alpha && !b->is_data && (g.divide_alpha || !premultiplied);
     OTX_TRY(otx_pool_for(b->run->pool, out->height, load_row, &g));
+    if (b->decoder)
+        OTX_TRY(otx_decoder_apply(b->run, b->decoder, out));
     if (converts)
         OTX_TRY(
             otx_colour_convert(b->run, b->colour, b->source_space, space, out));
@@ -408,7 +412,7 @@ resolve_spaces(build *b)
     const otx_ocio *config = b->colour->config;
 
     OTX_TRY(otx_colour_resolve(
-        b->run, b->colour, &input->source, &b->source_space));
+        b->run, b->colour, &input->source, &b->source_space, &b->decoder));
     b->is_data = otx_ocio_is_data(config, b->source_space);
     if (b->is_data)
     {
@@ -484,6 +488,8 @@ record(build *b)
 {
     otx_exemplar *out = b->out;
     const char *match = b->match_space ? b->match_space : b->work_space;
+    const char *source =
+        b->decoder ? otx_decoder_name(b->decoder) : b->source_space;
 
     out->embedding = b->input->embedding;
     out->receiver = b->input->receiver;
@@ -492,7 +498,7 @@ record(build *b)
         b->colour, b->linear_space, out->chromaticities);
     if (keep(b, b->input->source.path, &out->source_path) &&
         keep(b, b->input->hash, &out->source_hash) &&
-        keep(b, b->source_space, &out->source_space) &&
+        keep(b, source, &out->source_space) &&
         keep(b, b->linear_space, &out->linear_space) &&
         keep(b, match, &out->match_space) &&
         keep(

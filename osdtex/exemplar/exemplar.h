@@ -27,7 +27,8 @@ typedef struct otx_exemplar
     /* What is recorded in the report and the EXR header. */
     const char *source_path;  /* as given */
     const char *source_hash;  /* of the file's bytes */
-    const char *source_space; /* resolved OCIO colour space of the file */
+    const char *source_space; /* resolved OCIO colour space of the file, or
+                               * what else it says of its encoding */
     const char *linear_space; /* OCIO name of `linear` */
     const char *match_space;
     const char *interop_id; /* colorInteropID of linear_space, NULL unknown */

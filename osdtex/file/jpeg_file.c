@@ -10,6 +10,7 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* jpeglib.h needs stdio.h first. */
@@ -24,6 +25,7 @@ enum
     MAX_SCANS = 200,
     ROWS_AT_ONCE = 1,
     EXIF_MARKER = JPEG_APP0 + 1,
+    ICC_MARKER = JPEG_APP0 + 2,
     MARKER_BYTES_MAX = 0xFFFF
 };
 
@@ -105,23 +107,68 @@ reader_header(reader *r)
     r->jpeg.progress = &r->progress;
     jpeg_stdio_src(&r->jpeg, r->file);
     jpeg_save_markers(&r->jpeg, EXIF_MARKER, MARKER_BYTES_MAX);
+    jpeg_save_markers(&r->jpeg, ICC_MARKER, MARKER_BYTES_MAX);
     jpeg_read_header(&r->jpeg, TRUE);
     return 1;
 }
 
-/* The first marker that holds EXIF, behind a name of six bytes. */
-static int32_t
-orientation_of(const reader *r)
+/* The first marker of a kind whose data begin with `name`, a NUL included. */
+static const struct jpeg_marker_struct *
+marker_of(const reader *r, int kind, const char *name, size_t bytes)
 {
-    static const char name[] = "Exif\0";
-
     for (const struct jpeg_marker_struct *m = r->jpeg.marker_list; m;
          m = m->next)
-        if (m->marker == EXIF_MARKER && m->data_length >= sizeof name &&
-            memcmp(m->data, name, sizeof name) == 0)
-            return otx_exif_orientation(
-                m->data + sizeof name, m->data_length - sizeof name);
-    return 1;
+        if (m->marker == kind && m->data_length >= bytes &&
+            memcmp(m->data, name, bytes) == 0)
+            return m;
+    return NULL;
+}
+
+static void
+read_exif(otx_run *run, const char *path, reader *r)
+{
+    static const char name[] = "Exif\0";
+    const struct jpeg_marker_struct *m =
+        marker_of(r, EXIF_MARKER, name, sizeof name);
+
+    if (!m)
+        return;
+
+    const uint8_t *bytes = m->data + sizeof name;
+    const size_t count = m->data_length - sizeof name;
+
+    otx_exif_note_orientation(
+        run, path, "JPEG", otx_exif_orientation(bytes, count));
+    r->out->says_adobe_rgb = otx_exif_says_adobe_rgb(bytes, count);
+}
+
+/* Zero when libjpeg jumped out. It puts the pieces of the profile together. */
+static int
+collect_profile(reader *r, JOCTET **bytes, unsigned int *count)
+{
+    if (setjmp(r->escape))
+        return 0;
+    return jpeg_read_icc_profile(&r->jpeg, bytes, count);
+}
+
+static otx_status
+read_profile(otx_run *run, reader *r)
+{
+    static const char name[] = "ICC_PROFILE";
+    JOCTET *bytes = NULL;
+    unsigned int count = 0;
+    otx_status status;
+
+    if (!marker_of(r, ICC_MARKER, name, sizeof name))
+        return OSDTEX_OK;
+    if (!collect_profile(r, &bytes, &count) || !bytes)
+    {
+        r->out->icc_fault = "a piece of it is missing or there twice";
+        return OSDTEX_OK;
+    }
+    status = otx_picture_keep_icc(run, bytes, count, r->out);
+    free(bytes);
+    return status;
 }
 
 /* One decoded row to floats: grey is given three times. */
@@ -207,7 +254,8 @@ otx_jpeg_file_read(otx_run *run, const char *path, otx_picture *out)
             r->jpeg.num_components);
     OTX_TRY(otx_picture_create(
         run, path, r->jpeg.image_width, r->jpeg.image_height, 3, out));
-    otx_exif_note_orientation(run, path, "JPEG", orientation_of(r));
+    read_exif(run, path, r);
+    OTX_TRY(read_profile(run, r));
     out->bits = 8;
     out->is_gray = r->jpeg.num_components == 1;
     r->row = OTX_NEW(run->scratch, JSAMPLE, (size_t)out->image.width * 3);

@@ -73,6 +73,26 @@ find_format(const uint8_t magic[MAGIC_BYTES])
 }
 
 otx_status
+otx_picture_keep_icc(
+    otx_run *run, const uint8_t *bytes, size_t size, otx_picture *out)
+{
+    uint8_t *copy;
+
+    if (size > OTX_PICTURE_MAX_ICC)
+    {
+        out->icc_fault = "it is larger than 32 MiB";
+        return OSDTEX_OK;
+    }
+    copy = OTX_NEW(run->arena, uint8_t, size > 0 ? size : 1);
+    if (!copy)
+        return otx_fail_memory(run, "picture");
+    memcpy(copy, bytes, size);
+    out->icc = copy;
+    out->icc_bytes = size;
+    return OSDTEX_OK;
+}
+
+otx_status
 otx_picture_check_size(
     otx_run *run, const char *path, int64_t width, int64_t height)
 {

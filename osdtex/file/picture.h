@@ -12,7 +12,8 @@
 enum
 {
     /* 8192 x 8192: one GiB of RGBA floats. */
-    OTX_PICTURE_MAX_PIXELS = 1 << 26
+    OTX_PICTURE_MAX_PIXELS = 1 << 26,
+    OTX_PICTURE_MAX_ICC = 32 << 20 /* bytes; printers' profiles are a few MiB */
 };
 
 typedef enum otx_picture_kind
@@ -43,11 +44,14 @@ typedef struct otx_picture
     const char *interop_id;  /* EXR colorInteropID */
     const char *oiio_space;  /* EXR oiio:ColorSpace */
     const char *tiles;       /* EXR osdtex:tiles, see tile_layout.h */
-    bool has_chromaticities; /* EXR only: the primaries of linear values */
+    bool has_chromaticities; /* EXR, PNG cHRM */
     float chromaticities[8]; /* R, G, B, W as xy pairs */
     bool says_srgb;          /* PNG sRGB chunk */
+    bool says_adobe_rgb;     /* Exif of PNG and JPEG */
     float gamma;             /* PNG gAMA, the encoding exponent */
-    bool has_icc_profile;    /* PNG, TIFF; JPEG profiles are not looked for */
+    const uint8_t *icc;      /* PNG, TIFF, JPEG: the profile as it is there */
+    size_t icc_bytes;
+    const char *icc_fault; /* why it is not, though the file has one */
     /* EXR windows as stored; others: the whole picture, twice. `image` is
      * their intersection. */
     otx_picture_window data_window;
@@ -66,6 +70,10 @@ typedef struct otx_picture
  * NUMERIC a pixel is not finite: the first is named
  * MEMORY  */
 otx_status otx_picture_read(otx_run *run, const char *path, otx_picture *out);
+
+/* For the readers of one format: keeps a copy of an ICC profile. MEMORY. */
+otx_status otx_picture_keep_icc(
+    otx_run *run, const uint8_t *bytes, size_t size, otx_picture *out);
 
 /* For the readers of one format: FORMAT or LIMIT unless the size is one that
  * is read. It is what the file claims, in full, so that no cast can hide it. */

@@ -85,6 +85,22 @@ reader_expand(reader *r)
     r->channels = png_get_channels(r->png, r->info);
 }
 
+/* Of cHRM, white first. */
+static void
+reader_chromaticities(reader *r)
+{
+    otx_picture *out = r->out;
+    double v[8];
+
+    if (png_get_cHRM(
+            r->png, r->info, &v[6], &v[7], &v[0], &v[1], &v[2], &v[3], &v[4],
+            &v[5]) == 0)
+        return;
+    for (int i = 0; i < 8; ++i)
+        out->chromaticities[i] = (float)v[i];
+    out->has_chromaticities = true;
+}
+
 static void
 reader_metadata(reader *r)
 {
@@ -96,18 +112,35 @@ reader_metadata(reader *r)
     out->says_srgb = png_get_sRGB(r->png, r->info, &intent) != 0;
     if (png_get_gAMA(r->png, r->info, &gamma) != 0)
         out->gamma = (float)gamma;
-    out->has_icc_profile = png_get_valid(r->png, r->info, PNG_INFO_iCCP) != 0;
+    reader_chromaticities(r);
 }
 
-static int32_t
-orientation_of(const reader *r)
+/* What the chunks of the header hold besides numbers. */
+static otx_status
+keep_chunks(reader *r)
 {
-    png_uint_32 count = 0;
-    png_bytep exif = NULL;
+    png_charp name = NULL;
+    int method = 0;
+    png_bytep profile = NULL, exif = NULL;
+    png_uint_32 bytes = 0;
 
-    return png_get_eXIf_1(r->png, r->info, &count, &exif) != 0
-               ? otx_exif_orientation(exif, count)
-               : 1;
+    if (png_get_eXIf_1(r->png, r->info, &bytes, &exif) != 0)
+    {
+        otx_exif_note_orientation(
+            r->run, r->path, "PNG", otx_exif_orientation(exif, bytes));
+        r->out->says_adobe_rgb = otx_exif_says_adobe_rgb(exif, bytes);
+    }
+    if (png_get_iCCP(r->png, r->info, &name, &method, &profile, &bytes) != 0)
+        return otx_picture_keep_icc(r->run, profile, bytes, r->out);
+    /* libpng passes over a profile that it finds at fault. */
+    if (strncmp(r->warning, "iCCP", 4) == 0)
+    {
+        r->out->icc_fault = otx_arena_strdup(r->run->arena, r->warning);
+        if (!r->out->icc_fault)
+            return otx_fail_memory(r->run, "picture");
+        r->warning[0] = '\0';
+    }
+    return OSDTEX_OK;
 }
 
 /* Header and transformations. Zero when libpng jumped out. */
@@ -218,7 +251,7 @@ otx_png_file_read(otx_run *run, const char *path, otx_picture *out)
         run, path, png_get_image_width(r->png, r->info),
         png_get_image_height(r->png, r->info), 3 + (r->channels % 2 == 0),
         out));
-    otx_exif_note_orientation(run, path, "PNG", orientation_of(r));
+    OTX_TRY(keep_chunks(r));
     out->is_gray = r->channels < 3;
     OTX_TRY(read_pixels(r));
     if (r->warning[0] != '\0')

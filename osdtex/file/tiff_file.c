@@ -158,9 +158,10 @@ reader_tags(reader *r)
         r->photometric = PHOTOMETRIC_RGB;
     r->out->bits = r->bits;
     r->out->is_float = r->sample_format == SAMPLEFORMAT_IEEEFP;
-    r->out->has_icc_profile =
-        TIFFGetField(r->tiff, TIFFTAG_ICCPROFILE, &profile_bytes, &profile) ==
-        1;
+    if (TIFFGetField(r->tiff, TIFFTAG_ICCPROFILE, &profile_bytes, &profile) ==
+            1 &&
+        profile)
+        return otx_picture_keep_icc(r->run, profile, profile_bytes, r->out);
     return OSDTEX_OK;
 }
 

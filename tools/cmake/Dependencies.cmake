@@ -16,6 +16,7 @@ find_package(PNG REQUIRED)
 find_package(TIFF REQUIRED)
 find_package(JPEG REQUIRED)
 pkg_check_modules(OCIO REQUIRED IMPORTED_TARGET OpenColorIO>=2.1)
+pkg_check_modules(LCMS2 REQUIRED IMPORTED_TARGET lcms2>=2.12)
 pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate>=1.10)
 pkg_check_modules(FFTW3F REQUIRED IMPORTED_TARGET fftw3f>=3.3)
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson>=2.13)
@@ -33,5 +34,5 @@ set_target_properties(osdtex_dep_cholmod PROPERTIES
 set(OSDTEX_LIBRARIES
   osdtex_dep_osd osdtex_dep_cholmod OpenEXR::OpenEXRCore embree PNG::PNG
   TIFF::TIFF JPEG::JPEG
-  PkgConfig::OCIO PkgConfig::DEFLATE PkgConfig::FFTW3F PkgConfig::JANSSON PkgConfig::XXHASH
+  PkgConfig::OCIO PkgConfig::LCMS2 PkgConfig::DEFLATE PkgConfig::FFTW3F PkgConfig::JANSSON PkgConfig::XXHASH
   Threads::Threads m)

@@ -1,5 +1,6 @@
 /* test_colour.c -- which rule decides, on every configuration at hand. */
-#include "colour/colour.h"
+#include "colour/decoder.h"
+#include "colour/primaries.h"
 #include "support.h"
 
 #include <math.h>
@@ -36,7 +37,7 @@ check_rows(otx_run *run, const otx_colour *colour, const row *rows, size_t n)
         const char *space = NULL;
 
         assert_int_equal(
-            otx_colour_resolve(run, colour, &rows[i].source, &space),
+            otx_colour_resolve(run, colour, &rows[i].source, &space, NULL),
             OSDTEX_OK);
         assert_string_equal(space, rows[i].space);
         if (!strstr(test_last_message(run), rows[i].why))
@@ -112,24 +113,75 @@ warning_count(const otx_run *run)
 static void
 test_unknown_tags_are_passed_over(void **state)
 {
-    const otx_colour_source source = {
+    static const float nowhere[8] = {
+        0.3F, 0.3F, 0.3F, 0.3F, 0.3F, 0.3F, 0.3F, 0.0F};
+    otx_colour_source source = {
         .path = "x.exr",
         .interop_id = "g24_fantasy",
         .oiio_space = "Linear",
         .has_chromaticities = true,
-        .chromaticities = ODD,
         .is_float = true};
     otx_run *run = test_run_create();
+    const otx_decoder *decoder;
     const char *space = NULL;
     otx_colour colour;
     (void)state;
 
+    memcpy(source.chromaticities, nowhere, sizeof nowhere);
     assert_int_equal(otx_colour_open(run, NULL, NULL, &colour), OSDTEX_OK);
     assert_int_equal(warning_count(run), 0);
     assert_int_equal(
-        otx_colour_resolve(run, &colour, &source, &space), OSDTEX_OK);
+        otx_colour_resolve(run, &colour, &source, &space, &decoder), OSDTEX_OK);
     assert_string_equal(space, "Linear Rec.709 (sRGB)");
+    assert_null(decoder);
     assert_int_equal(warning_count(run), 3);
+    test_run_destroy(run);
+}
+
+/* Primaries of no space of the configuration are a matrix: the brightest red of
+ * Adobe's is the same light by both ways, up to the rounding of three digits.
+ */
+static void
+test_odd_chromaticities_are_a_matrix(void **state)
+{
+    const otx_colour_source source = {
+        .path = "x.exr",
+        .has_chromaticities = true,
+        .chromaticities = ODD,
+        .is_float = true};
+    static const float xy[8] = ODD;
+    float pixels[8 * 3];
+    otx_image image = {8, 1, 3, pixels};
+    otx_run *run = test_run_create();
+    const otx_decoder *decoder;
+    const char *space = NULL;
+    otx_primaries_matrix file, ours;
+    static const float rec709[8] = REC709;
+    otx_colour colour;
+    (void)state;
+
+    for (int i = 0; i < 24; ++i)
+        pixels[i] = (float)((i / 3) >> (i % 3) & 1) * 2.0F;
+    assert_int_equal(otx_colour_open(run, NULL, NULL, &colour), OSDTEX_OK);
+    assert_int_equal(
+        otx_colour_resolve(run, &colour, &source, &space, &decoder), OSDTEX_OK);
+    assert_non_null(decoder);
+    assert_int_equal(warning_count(run), 0);
+    assert_int_equal(otx_decoder_apply(run, decoder, &image), OSDTEX_OK);
+    assert_true(otx_primaries_to_aces(xy, &file));
+    assert_true(otx_primaries_to_aces(rec709, &ours));
+    for (int i = 0; i < 8; ++i)
+        for (int k = 0; k < 3; ++k)
+        {
+            double theirs = 0.0, mine = 0.0;
+
+            for (int j = 0; j < 3; ++j)
+            {
+                theirs += file.m[k][j] * ((i >> j & 1) * 2.0);
+                mine += ours.m[k][j] * (double)pixels[3 * i + j];
+            }
+            assert_true(fabs(theirs - mine) < 2e-5);
+        }
     test_run_destroy(run);
 }
 
@@ -144,7 +196,8 @@ test_unknown_name_lists_near_ones(void **state)
 
     assert_int_equal(otx_colour_open(run, NULL, NULL, &colour), OSDTEX_OK);
     assert_int_equal(
-        otx_colour_resolve(run, &colour, &source, &space), OSDTEX_ERROR_COLOUR);
+        otx_colour_resolve(run, &colour, &source, &space, NULL),
+        OSDTEX_ERROR_COLOUR);
     assert_null(space);
     assert_non_null(strstr(test_last_message(run), "--from"));
     assert_non_null(strstr(test_last_message(run), "'ACEScg'"));
@@ -219,7 +272,7 @@ test_configurations(void **state)
             otx_colour_open(run, NULL, table[i].path, &colour), OSDTEX_OK);
         assert_string_equal(colour.path, table[i].path);
         assert_int_equal(
-            otx_colour_resolve(run, &colour, &byte, &space), OSDTEX_OK);
+            otx_colour_resolve(run, &colour, &byte, &space, NULL), OSDTEX_OK);
         assert_string_equal(space, table[i].byte);
         assert_int_equal(
             otx_colour_resolve_linear(run, &colour, NULL, &space), OSDTEX_OK);
@@ -339,7 +392,7 @@ test_missing_table(void **state)
         OSDTEX_OK);
     assert_int_equal(warning_count(run), 1);
     assert_int_equal(
-        otx_colour_resolve(run, &colour, &source, &space), OSDTEX_OK);
+        otx_colour_resolve(run, &colour, &source, &space, NULL), OSDTEX_OK);
     assert_string_equal(space, "lin");
     assert_int_equal(
         otx_colour_convert(run, &colour, "lin", "raw", &image), OSDTEX_OK);
@@ -352,6 +405,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_order),
         cmocka_unit_test(test_unknown_tags_are_passed_over),
+        cmocka_unit_test(test_odd_chromaticities_are_a_matrix),
         cmocka_unit_test(test_unknown_name_lists_near_ones),
         cmocka_unit_test(test_primaries_are_measured),
         cmocka_unit_test(test_configurations),
