@@ -45,6 +45,7 @@
 
 #include <osdtex/bake.h>
 #include <osdtex/cage.h>
+#include <osdtex/colour.h>
 #include <osdtex/common.h>
 #include <osdtex/context.h>
 #include <osdtex/exemplar.h>

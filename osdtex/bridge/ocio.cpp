@@ -370,6 +370,60 @@ otx_ocio_open(const char *path, otx_ocio **out, char *message)
         });
 }
 
+bool
+otx_ocio_is_carried(const char *path)
+{
+    return std::strncmp(path, "ocio://", 7) == 0;
+}
+
+#if OCIO_VERSION_HEX < 0x02020000
+namespace
+{
+
+/* Those that OpenColorIO carries are ACES, each with ACEScg as scene_linear. */
+OCIO::ConstConfigRcPtr
+open_instead(const char *path)
+{
+    static const char own[] = "scene_linear: Linear Rec.709 (sRGB)";
+    std::string text(builtin_config);
+    const std::string name(path + 7);
+
+    if (name != "default" && name.rfind("cg-config-", 0) != 0 &&
+        name.rfind("studio-config-", 0) != 0)
+        throw std::runtime_error(
+            "OpenColorIO " + std::string(OCIO::GetVersion()) +
+            " carries no configurations of its own, which 2.2 and later do: "
+            "give the file of the configuration");
+    text.replace(text.find(own), sizeof own - 1, "scene_linear: ACEScg");
+
+    std::istringstream stream(text);
+    return OCIO::Config::CreateFromStream(stream);
+}
+
+} // namespace
+#endif
+
+otx_status
+otx_ocio_open_carried(
+    const char *path, otx_ocio **out, char *message, char *stands_in)
+{
+    *out = nullptr;
+    stands_in[0] = '\0';
+    return guarded(
+        message,
+        [&]
+        {
+            const quiet hush;
+#if OCIO_VERSION_HEX < 0x02020000
+            const auto config = open_instead(path);
+            say(stands_in, OCIO::GetVersion());
+#else
+            const auto config = OCIO::Config::CreateFromFile(path);
+#endif
+            *out = new otx_ocio{config, all_names(*config)};
+        });
+}
+
 otx_status
 otx_ocio_open_builtin(otx_ocio **out, char *message)
 {
@@ -448,6 +502,60 @@ otx_ocio_role(const otx_ocio *ocio, const char *role)
         [&]() -> const char * {
             return ocio->config->hasRole(role) ? find(*ocio->config, role)
                                                : nullptr;
+        });
+}
+
+const char *
+otx_ocio_role_name(const otx_ocio *ocio, int32_t index)
+{
+    return answered<const char *>(
+        nullptr,
+        [&]() -> const char *
+        {
+            return index >= 0 && index < ocio->config->getNumRoles()
+                       ? ocio->config->getRoleName(index)
+                       : nullptr;
+        });
+}
+
+const char *
+otx_ocio_alias(const otx_ocio *ocio, const char *space, int32_t index)
+{
+    return answered<const char *>(
+        nullptr,
+        [&]() -> const char *
+        {
+            const auto found = ocio->config->getColorSpace(space);
+            return found && index >= 0 &&
+                           static_cast<size_t>(index) < found->getNumAliases()
+                       ? found->getAlias(static_cast<size_t>(index))
+                       : nullptr;
+        });
+}
+
+const char *
+otx_ocio_display(const otx_ocio *ocio, int32_t index)
+{
+    return answered<const char *>(
+        nullptr,
+        [&]() -> const char *
+        {
+            return index >= 0 && index < ocio->config->getNumDisplays()
+                       ? ocio->config->getDisplay(index)
+                       : nullptr;
+        });
+}
+
+const char *
+otx_ocio_view(const otx_ocio *ocio, const char *display, int32_t index)
+{
+    return answered<const char *>(
+        nullptr,
+        [&]() -> const char *
+        {
+            return index >= 0 && index < ocio->config->getNumViews(display)
+                       ? ocio->config->getView(display, index)
+                       : nullptr;
         });
 }
 

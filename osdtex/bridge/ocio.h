@@ -32,6 +32,15 @@ extern "C"
      * OpenColorIO knows. Look-up tables are first read when they are needed. */
     otx_status otx_ocio_open(const char *path, otx_ocio **out, char *message);
 
+    /* Whether `path` is a name of a configuration that OpenColorIO itself
+     * carries, "ocio://...", from version 2.2 on. An older one does not know
+     * them: then those that are known to be of ACES are opened as
+     * otx_ocio_open_builtin with ACEScg as scene_linear, and `stands_in` says
+     * which version is too old; else it is "". */
+    bool otx_ocio_is_carried(const char *path);
+    otx_status otx_ocio_open_carried(
+        const char *path, otx_ocio **out, char *message, char *stands_in);
+
     /* Opens the configuration built into osdtex (builtin_config.h). */
     otx_status otx_ocio_open_builtin(otx_ocio **out, char *message);
 
@@ -53,6 +62,18 @@ extern "C"
 
     /* The proper name of the space of `role`; NULL where it is not assigned. */
     const char *otx_ocio_role(const otx_ocio *ocio, const char *role);
+
+    /* Name of role `index`, NULL behind the end. */
+    const char *otx_ocio_role_name(const otx_ocio *ocio, int32_t index);
+
+    /* Other name `index` of `space`, NULL behind the end. */
+    const char *
+    otx_ocio_alias(const otx_ocio *ocio, const char *space, int32_t index);
+
+    /* Display `index`, and its view `index`; NULL behind the end. */
+    const char *otx_ocio_display(const otx_ocio *ocio, int32_t index);
+    const char *
+    otx_ocio_view(const otx_ocio *ocio, const char *display, int32_t index);
 
     /* Everything that a space may be called by: proper names, then aliases,
      * then roles. NULL behind the end. */

@@ -198,11 +198,16 @@ static const otx_command commands[] = {
      "Runs one task, unless its outputs were made by this version from the "
      "same\ninputs and options. Paths in the job are relative to its folder.",
      "osdtex run shirts.json --task 3\n", NULL, run_flags, otx_run_command_run},
-    {"info", "FILE", 1, 1, "say what a cage or a picture is",
+    {"info", "[FILE]", 0, 1,
+     "say what a cage, a picture or a colour configuration is",
      "Of an OBJ: faces, tags, components, boundary, size. Of a picture: size, "
-     "type,\ncolour space as it would be resolved, whether it tiles.",
+     "type,\ncolour space as it would be resolved, whether it tiles. Of an "
+     "OpenColorIO\nconfiguration, and without FILE of the one in force: its "
+     "roles, spaces with all\ntheir names, and displays.",
      "osdtex info models/cages/creature.obj\n"
-     "osdtex info models/exemplars/pebbles_tile.png\n",
+     "osdtex info models/exemplars/pebbles_tile.png\n"
+     "osdtex info studio.ocio\n"
+     "osdtex info\n",
      NULL, info_flags, otx_info_command_run},
     {"methods", "[NAME]", 0, 1, "list the methods, or the settings of one",
      "Settings are given to `osdtex map` with --set KEY=VALUE.",

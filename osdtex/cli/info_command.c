@@ -1,6 +1,7 @@
 /* info_command.c -- osdtex info: what a file is, as osdtex sees it. */
 #include "cli/inputs.h"
 #include "cli/session.h"
+#include "cli/value.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -123,6 +124,79 @@ inspect_exemplar(
     return status;
 }
 
+/* Roles, then spaces with their aliases, then displays with their views. */
+typedef struct listing
+{
+    osdtex_colour_kind kind; /* of the line before; -1 none */
+    char display[128];       /* the line of views goes on for */
+} listing;
+
+static void
+print_item(
+    void *user, osdtex_colour_kind kind, const char *name, const char *value)
+{
+    static const char *const titles[] = {"roles", "spaces", NULL, "displays"};
+    listing *l = user;
+    const bool goes_on = kind == OSDTEX_COLOUR_DISPLAY && l->kind == kind &&
+                         strncmp(l->display, name, sizeof l->display - 1) == 0;
+
+    if (kind == OSDTEX_COLOUR_ALIAS)
+        printf("%s%s", l->kind == OSDTEX_COLOUR_ALIAS ? ", " : "; also ", name);
+    else if (goes_on)
+        printf(", %s", value);
+    else
+    {
+        const bool titled =
+            kind != l->kind &&
+            !(kind == OSDTEX_COLOUR_SPACE && l->kind == OSDTEX_COLOUR_ALIAS);
+
+        if (l->kind >= 0)
+            putchar('\n');
+        if (titled)
+            printf("  %s\n", titles[kind]);
+        printf("    %s", name);
+        if (value[0])
+            printf(kind == OSDTEX_COLOUR_SPACE ? " (%s)" : ": %s", value);
+        snprintf(l->display, sizeof l->display, "%s", name);
+    }
+    l->kind = kind;
+}
+
+static osdtex_status
+inspect_configuration(osdtex_context *context)
+{
+    listing l = {.kind = -1};
+    const osdtex_status status = osdtex_colour_list(context, print_item, &l);
+
+    if (l.kind >= 0)
+        putchar('\n');
+    return status;
+}
+
+/* By its name, or by the word that every configuration has. */
+static bool
+is_configuration(const char *path)
+{
+    return strncmp(path, "ocio://", 7) == 0 ||
+           otx_value_has_extension(path, ".ocio") ||
+           otx_value_has_extension(path, ".ocioz") ||
+           otx_inputs_holds(path, "ocio_profile_version");
+}
+
+/* The file is asked for as --colorconfig would ask for it. */
+static int
+run_on_configuration(const otx_flag_values *values)
+{
+    otx_flag_values with = *values;
+    otx_session session;
+
+    if (values->operand_count > 0)
+        with.text[OTX_FLAG_COLORCONFIG] = values->operands[0];
+    if (!otx_session_begin(&session, &with))
+        return session.exit_code;
+    return otx_session_end(&session, inspect_configuration(session.context));
+}
+
 int
 otx_info_command_run(const otx_flag_values *values)
 {
@@ -135,6 +209,8 @@ otx_info_command_run(const otx_flag_values *values)
     if (!otx_inputs_cage(values, &cage_options) ||
         !otx_inputs_exemplar(values, &exemplar_options))
         return OTX_EXIT_USAGE;
+    if (values->operand_count == 0 || is_configuration(path))
+        return run_on_configuration(values);
     if (!otx_session_begin(&session, values))
         return session.exit_code;
     status = otx_inputs_is_picture(path) || otx_inputs_is_binary(path)

@@ -131,3 +131,12 @@ otx_inputs_is_binary(const char *path)
     return !otx_value_has_extension(path, ".obj") &&
            memchr(head, 0, peek(path, head)) != NULL;
 }
+
+bool
+otx_inputs_holds(const char *path, const char *word)
+{
+    unsigned char head[PEEK_BYTES];
+    const size_t count = peek(path, head);
+
+    return memmem(head, count, word, strlen(word)) != NULL;
+}

@@ -19,4 +19,7 @@ const char *otx_inputs_scheme_name(osdtex_scheme scheme);
 const char *otx_inputs_boundary_name(osdtex_boundary boundary);
 const char *otx_inputs_fvar_name(osdtex_fvar fvar);
 
+/* Whether a file's first bytes hold a word. */
+bool otx_inputs_holds(const char *path, const char *word);
+
 #endif

@@ -32,7 +32,10 @@ otx_colour_find(
             otx_ocio_space_name(colour->config, 1));
     return otx_fail(
         run, OSDTEX_ERROR_COLOUR, stage, otx_where_file(colour->path),
-        "%s: the colour configuration has no space '%s'%s", what, name, near);
+        "%s: the colour configuration has no space '%s'%s; `osdtex info%s%s` "
+        "lists all",
+        what, name, near, colour->path ? " " : "",
+        colour->path ? colour->path : "");
 }
 
 static void
@@ -47,6 +50,26 @@ fail_open(otx_run *run, const otx_colour *colour, const char *message)
     return otx_fail(
         run, OSDTEX_ERROR_COLOUR, stage, otx_where_file(colour->path),
         "the colour configuration cannot be used: %s", message);
+}
+
+/* A configuration that OpenColorIO carries, or what stands in for it. */
+static otx_status
+open_carried(otx_run *run, const char *path, otx_ocio **out, char *message)
+{
+    char version[OTX_OCIO_MESSAGE_BYTES];
+    const otx_status status =
+        otx_ocio_open_carried(path, out, message, version);
+
+    if (status == OSDTEX_OK && version[0])
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, stage, otx_where_file(path),
+            "OpenColorIO %s carries no configurations of its own, which 2.2 "
+            "and "
+            "later do; osdtex's few spaces stand in for it, with ACEScg as "
+            "scene_linear as there: give the file of the configuration for the "
+            "others",
+            version);
+    return status;
 }
 
 otx_status
@@ -65,7 +88,9 @@ otx_colour_open(
         out->path = otx_arena_strdup(run->arena, file);
         if (!out->path)
             return otx_fail_memory(run, stage);
-        status = otx_ocio_open(out->path, &config, message);
+        status = otx_ocio_is_carried(out->path)
+                     ? open_carried(run, out->path, &config, message)
+                     : otx_ocio_open(out->path, &config, message);
     }
     else
         status = otx_ocio_open_builtin(&config, message);
