@@ -209,7 +209,7 @@ from_profile(
 
     if (source->icc_fault)
         snprintf(
-            reason, sizeof reason, "is damaged (%.120s)", source->icc_fault);
+            reason, sizeof reason, "cannot be used (%.120s)", source->icc_fault);
     name[0] = '\0';
     if (!source->icc_fault)
         OTX_TRY(otx_icc_profile_open(

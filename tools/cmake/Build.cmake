@@ -8,7 +8,7 @@ set(OSDTEX_BUILD_HOW
   "${CMAKE_CXX_FLAGS} OpenEXR ${OpenEXR_VERSION} OpenColorIO ${OCIO_VERSION}"
   "FFTW ${FFTW3F_VERSION} Embree ${embree_VERSION} PNG ${PNG_VERSION_STRING}"
   "TIFF ${TIFF_VERSION_STRING} JPEG ${JPEG_VERSION}"
-  "libdeflate ${DEFLATE_VERSION}")
+  "libdeflate ${DEFLATE_VERSION} LittleCMS ${LCMS2_VERSION}")
 list(JOIN OSDTEX_BUILD_HOW " " OSDTEX_BUILD_HOW)
 
 # Always looked at, and a no-op for what depends on it where nothing changed.
