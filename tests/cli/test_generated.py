@@ -122,7 +122,7 @@ class Generated(ProgramTest):
         distortion = report["distortion"]
         for what in ("flips", "uncovered"):
             if distortion[what] and not re.search(
-                    r"turned over|flip|fold|cover", said):
+                    r"reversed|flip|fold|cover", said):
                 return f"{distortion[what]} {what}, and stderr says nothing"
         for path in out.glob("*.exr"):
             wrong = self.judge_picture(path)
