@@ -1,4 +1,9 @@
-/* tiles.h -- tiled textures: what the method "tile" maps. */
+/* tiles.h -- tiled textures: what the method "tile" maps.
+ *
+ * Cuts and searches compare the picture in the coordinates that its exemplar
+ * was read with, osdtex_exemplar_options.embedding. What they weigh was
+ * measured in OSDTEX_EMBEDDING_LAB, which `osdtex tiles` asks for unless told
+ * otherwise. */
 #ifndef OSDTEX_TILES_H
 #define OSDTEX_TILES_H
 

@@ -158,7 +158,8 @@ make_open(make_job *job)
     job->kit.sizes = otx_tileset_sizes(&job->layout);
     job->kit.boundary_count = job->kit.corner_count = 1;
     OTX_TRY(otx_texel_pool_create(
-        &job->run, job->run.arena, &job->exemplar, 0, &job->pool));
+        &job->run, job->run.arena, &job->exemplar, &job->exemplar.lab, 0,
+        &job->pool));
     return otx_template_kit(
         &job->run, &job->pool, NULL, &job->options, &job->layout, &job->kit);
 }

@@ -190,7 +190,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "color_picking, else sRGB)"},
     [OTX_FLAG_MATCH_IN] =
         {"match-in", 0, OTX_FLAG_GROUP_COLOUR, "hsv|hsv-cylinder|lab|rgb",
-         "coordinates in which distances are taken (default hsv: the cone)"},
+         "coordinates in which distances are taken (default hsv: the cone; "
+         "osdtex tiles: lab)"},
     [OTX_FLAG_WRAP] =
         {"wrap", 0, OTX_FLAG_GROUP_COLOUR, "auto|no|yes",
          "whether the exemplar tiles (default auto: tested, for each axis)"},

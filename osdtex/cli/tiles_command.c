@@ -182,6 +182,9 @@ parse(job *j, const otx_flag_values *values)
     }
     if (!otx_inputs_exemplar(values, &j->exemplar_options))
         return false;
+    /* What cuts inside tiles weigh was measured in Lab. */
+    if (!values->text[OTX_FLAG_MATCH_IN])
+        j->exemplar_options.embedding = OSDTEX_EMBEDDING_LAB;
     /* Tiles have cuts of their own. */
     j->exemplar_options.tileable = OSDTEX_TILEABLE_KEEP;
     return otx_inputs_cage(values, &j->cage_options) && parse_numbers(j) &&

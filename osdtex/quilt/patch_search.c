@@ -71,7 +71,8 @@ describe(const cells *in, float out[NUMBERS])
     transform(in->values[2], HUE, out + count);
 }
 
-/* Mean Lab over cell x cell texels from every place on, [height * width * 3].
+/* Mean colour over cell x cell texels from every place on, [height * width *
+ * 3].
  */
 static otx_status
 average(otx_run *run, const otx_texel_pool *pool, int32_t cell, float **out)
@@ -89,7 +90,7 @@ average(otx_run *run, const otx_texel_pool *pool, int32_t cell, float **out)
             for (int32_t i = 0; i < cell; ++i)
                 for (size_t c = 0; c < 3; ++c)
                     rows[3 * ((size_t)y * (size_t)width + (size_t)x) + c] +=
-                        pool->lab
+                        pool->colors
                             [3 * ((size_t)y * (size_t)width +
                                   (size_t)((x + i) % width)) +
                              c];
@@ -221,11 +222,11 @@ average_picture(
     for (int32_t y = 0; y < cell * GRID; ++y)
         for (int32_t x = 0; x < cell * GRID; ++x)
         {
-            const float *lab =
-                pool->lab + 3 * (size_t)otx_texel_map_at(picture, x, y);
+            const float *color =
+                pool->colors + 3 * (size_t)otx_texel_map_at(picture, x, y);
 
             for (int32_t c = 0; c < 3; ++c)
-                out->values[c][y / cell][x / cell] += share * lab[c];
+                out->values[c][y / cell][x / cell] += share * color[c];
         }
 }
 
@@ -316,8 +317,8 @@ compare(
             const int32_t p = otx_texel_map_at(picture, x, y);
             const int32_t q =
                 otx_texel_pool_window(s->pool, window, size, size, x, y);
-            const float *a = s->pool->lab + 3 * (size_t)p;
-            const float *b = s->pool->lab + 3 * (size_t)q;
+            const float *a = s->pool->colors + 3 * (size_t)p;
+            const float *b = s->pool->colors + 3 * (size_t)q;
 
             own += p == q;
             sum += (a[0] - b[0]) * (a[0] - b[0]) +

@@ -43,7 +43,7 @@ int32_t otx_patch_search_find(
     otx_texel_window *out);
 
 /* How far `picture` is from what looks most like it, wherever that is: root of
- * the mean squared Lab distance. 0 for a piece of the exemplar. */
+ * the mean squared distance. 0 for a piece of the exemplar. */
 double otx_patch_search_distance(
     const otx_patch_search *search, const otx_texel_map *picture);
 

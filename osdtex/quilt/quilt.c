@@ -7,9 +7,9 @@
 
 enum
 {
-    ABSENT = 1 << 10, /* where a sheet has a hole: no distance in Lab */
-    /* Of a squared Lab unit: the most different colours cost less than 2^18,
-     * and a hole more than 64 of them. */
+    ABSENT = 1 << 10, /* where a sheet has a hole: no distance */
+    /* Of a squared unit of distance: the most different colours cost less than
+     * 2^18, and a hole more than 64 of them. */
     TOLL_UNIT = 4,
     ABSENT_TOLL = 1 << 24
 };

@@ -6,10 +6,10 @@
  *
  *     |a(p) - b(p)|^2 + |a(q) - b(q)|^2
  *
- * in Lab. `otx_quilt_expand` finds the best set of texels to give to one
- * sheet, by a minimum cut (an expansion move [Boykov01]). The first picture
- * over an empty one, an image cut of [Efros01], a corner, the ends of a strip
- * and the inside of a tile are all this one move.
+ * in the distances of the pool. `otx_quilt_expand` finds the best set of
+ * texels to give to one sheet, by a minimum cut (an expansion move [Boykov01]).
+ * The first picture over an empty one, an image cut of [Efros01], a corner, the
+ * ends of a strip and the inside of a tile are all this one move.
  *
  * [Boykov01] Boykov, Veksler, Zabih: Fast approximate energy minimization via
  * graph cuts. PAMI 23.

@@ -30,10 +30,33 @@ random_pair(const otx_texel_pool *pool)
     return sum / PAIRS;
 }
 
+/* Match space lies in [-1, 1]: times this, colours are as far apart as in Lab
+ * at most, which is what costs of cuts have room for. */
+static const double UNIT_MAX = 100.0;
+
+/* 1 in Lab, to the bit. */
+static double
+unit_of(const otx_exemplar *e, const otx_image *compared)
+{
+    const bool in_lab =
+        compared == &e->lab || e->embedding == OTX_EMBEDDING_LAB;
+
+    return !in_lab && e->match_sigma > 0.0 && e->lab_sigma > 0.0
+               ? fmin(e->lab_sigma / e->match_sigma, UNIT_MAX)
+               : 1.0;
+}
+
+static void
+scale_color(const otx_texel_pool *pool, const float *from, float *to)
+{
+    for (int c = 0; c < 3; ++c)
+        to[c] = (float)(pool->unit * from[c]);
+}
+
 otx_status
 otx_texel_pool_create(
-    otx_run *run, otx_arena *arena, const otx_exemplar *exemplar, int32_t extra,
-    otx_texel_pool *out)
+    otx_run *run, otx_arena *arena, const otx_exemplar *exemplar,
+    const otx_image *compared, int32_t extra, otx_texel_pool *out)
 {
     const size_t own =
         (size_t)exemplar->linear.width * (size_t)exemplar->linear.height;
@@ -52,15 +75,16 @@ otx_texel_pool_create(
         .count = (int32_t)own,
         .capacity = (int32_t)room,
         .linear = OTX_NEW(arena, float, room *channels),
-        .match = OTX_NEW(arena, float, room * 3),
-        .lab = OTX_NEW(arena, float, room * 3),
+        .compared = compared,
+        .unit = unit_of(exemplar, compared),
+        .colors = OTX_NEW(arena, float, room * 3),
     };
-    if (!out->linear || !out->match || !out->lab)
+    if (!out->linear || !out->colors)
         return otx_fail_memory(run, STAGE);
     memcpy(
         out->linear, exemplar->linear.pixels, own * channels * sizeof(float));
-    memcpy(out->match, exemplar->match.pixels, own * 3 * sizeof(float));
-    memcpy(out->lab, exemplar->lab.pixels, own * 3 * sizeof(float));
+    for (size_t i = 0; i < own; ++i)
+        scale_color(out, compared->pixels + 3 * i, out->colors + 3 * i);
     out->random_pair = random_pair(out);
     return OSDTEX_OK;
 }
@@ -134,14 +158,13 @@ otx_texel_pool_resample(
                 x + 0.5 - 0.5 * map->width, y + 0.5 - 0.5 * map->height};
             const otx_vec2 at = otx_vec2_add(centre, otx_vec2_mul(turn, p));
             const size_t n = (size_t)pool->count++;
+            float color[3];
 
             otx_image_sample(
                 &e->linear, e->wrap_x, e->wrap_y, at,
                 pool->linear + n * (size_t)pool->channels);
-            otx_image_sample(
-                &e->match, e->wrap_x, e->wrap_y, at, pool->match + n * 3);
-            otx_image_sample(
-                &e->lab, e->wrap_x, e->wrap_y, at, pool->lab + n * 3);
+            otx_image_sample(pool->compared, e->wrap_x, e->wrap_y, at, color);
+            scale_color(pool, color, pool->colors + n * 3);
             *texel++ = (int32_t)n;
         }
 }

@@ -1,10 +1,9 @@
 /* texel_pool.h -- what tiles are made of: texels, each with a number.
  *
  * Everything that is composed here is a picture of texel numbers. So colours
- * are only ever copied, all that is known of a texel (linear, match, Lab)
- * follows it, and turning by 90 degrees loses nothing. The first texels are
- * those of the exemplar; windows that the user lays at an angle are resampled
- * and added behind them. */
+ * are only ever copied, all that is known of a texel follows it, and turning by
+ * 90 degrees loses nothing. The first texels are those of the exemplar; windows
+ * that the user lays at an angle are resampled and added behind them. */
 #ifndef OTX_QUILT_TEXEL_POOL_H
 #define OTX_QUILT_TEXEL_POOL_H
 
@@ -23,11 +22,13 @@ typedef struct otx_texel_pool
     int32_t width, height; /* of the exemplar */
     int32_t channels;      /* of `linear` */
     int32_t count, capacity;
-    float *linear; /* [capacity * channels] */
-    float *match;  /* [capacity * 3] */
-    float *lab;    /* [capacity * 3] */
-    /* Mean distance in Lab of two random texels: what a cut would cost that
-     * goes anywhere. */
+    float *linear;             /* [capacity * channels] */
+    const otx_image *compared; /* of the exemplar: what distances are taken
+                                * in */
+    double unit; /* of what is compared, so that its contrast is that of Lab */
+    float *colors; /* [capacity * 3] of `compared`, times `unit` */
+    /* Mean distance of two random texels: what a cut would cost that goes
+     * anywhere. */
     double random_pair;
 } otx_texel_pool;
 
@@ -53,10 +54,14 @@ typedef struct otx_texel_window
     int32_t turns;
 } otx_texel_window;
 
-/* A pool of the exemplar's texels with room for `extra` more, in `arena`. */
+/* A pool of the exemplar's texels with room for `extra` more, in `arena`.
+ *
+ *   compared  `match` or `lab` of the exemplar: where distances are taken.
+ * Those of match space are scaled to the contrast of Lab, for which all that
+ * weighs distances against something else was measured */
 otx_status otx_texel_pool_create(
-    otx_run *run, otx_arena *arena, const otx_exemplar *exemplar, int32_t extra,
-    otx_texel_pool *out);
+    otx_run *run, otx_arena *arena, const otx_exemplar *exemplar,
+    const otx_image *compared, int32_t extra, otx_texel_pool *out);
 
 otx_status otx_texel_map_create(
     otx_run *run, otx_arena *arena, int32_t width, int32_t height,
@@ -96,11 +101,12 @@ void otx_texel_pool_resample(
     otx_texel_pool *pool, otx_vec2 centre, double angle, double step,
     otx_texel_map *map);
 
-/* Squared distance of two texels in Lab. */
+/* Squared distance of two texels. */
 static inline double
 otx_texel_pool_square(const otx_texel_pool *pool, int32_t a, int32_t b)
 {
-    const float *p = pool->lab + 3 * (size_t)a, *q = pool->lab + 3 * (size_t)b;
+    const float *p = pool->colors + 3 * (size_t)a;
+    const float *q = pool->colors + 3 * (size_t)b;
     const double l = p[0] - q[0], m = p[1] - q[1], n = p[2] - q[2];
 
     return l * l + m * m + n * n;

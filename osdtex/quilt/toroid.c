@@ -185,7 +185,7 @@ begin(toroid *t)
             image->width, image->height, OTX_TOROID_MIN_SIDE);
     t->side = 2 * (int32_t)(0.5 * WINDOW_SHARE * least);
     OTX_TRY(otx_texel_pool_create(
-        t->run, t->run->scratch, t->exemplar, 0, &t->pool));
+        t->run, t->run->scratch, t->exemplar, &t->exemplar->lab, 0, &t->pool));
     OTX_TRY(otx_texel_map_create(
         t->run, t->run->arena, image->width, image->height, &t->map));
     for (int32_t i = 0; i < image->width * image->height; ++i)

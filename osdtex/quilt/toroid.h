@@ -19,7 +19,7 @@ enum
 typedef struct otx_toroid
 {
     otx_texel_map map; /* of the picture's size, in run->arena */
-    /* Mean Lab distance along the cuts, as a share of two random texels'. */
+    /* Mean distance along the cuts, as a share of two random texels'. */
     double cut;
     double oddness; /* see quilt/oddness.h: much above 1, cuts show */
 } otx_toroid;

@@ -11,7 +11,8 @@ enum
 
 static const char STAGE[] = "toroid";
 
-/* Adds the mean Lab of a block of a map to `out`; false when it has holes. */
+/* Adds the mean colour of a block of a map to `out`; false when it has holes.
+ */
 static bool
 block_mean(
     const otx_texel_pool *pool, const otx_texel_map *map, int32_t x, int32_t y,
@@ -27,7 +28,7 @@ block_mean(
             if (texel == OTX_TEXEL_NONE)
                 return false;
             for (int k = 0; k < 3; ++k)
-                sum[k] += (double)pool->lab[3 * (size_t)texel + (size_t)k];
+                sum[k] += (double)pool->colors[3 * (size_t)texel + (size_t)k];
         }
     for (int k = 0; k < 3; ++k)
         out[k] = (float)(sum[k] / ((double)size * size));
@@ -139,7 +140,7 @@ exact_cost(
     const otx_window_search *s, const otx_texel_map *window,
     otx_texel_window place)
 {
-    const float *lab = s->pool->lab;
+    const float *colors = s->pool->colors;
     double sum = 0.0;
 
     for (int32_t y = 0; y < s->side; y += STRIDE)
@@ -149,9 +150,9 @@ exact_cost(
 
             if (texel != OTX_TEXEL_NONE)
                 sum += otx_image_distance_sq(
-                    lab + 3 * (size_t)texel,
-                    lab + 3 * (size_t)otx_texel_pool_window(
-                                  s->pool, place, s->side, s->side, x, y));
+                    colors + 3 * (size_t)texel,
+                    colors + 3 * (size_t)otx_texel_pool_window(
+                                     s->pool, place, s->side, s->side, x, y));
         }
     return sum;
 }

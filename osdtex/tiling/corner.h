@@ -17,7 +17,7 @@ typedef struct otx_corner
                         * tiles lie the same way up; else it looks the same
                         * when turned, for any vertex */
     int64_t cost;      /* of the cut, see quilt.h */
-    double seam;       /* mean Lab distance along the cut */
+    double seam;       /* mean distance along the cut */
 } otx_corner;
 
 /* The corner made of the exemplar around the texel corner that is (reach,

@@ -48,7 +48,7 @@ typedef struct maker
     float *spectra[PLANES];
     float *planes[PLANES];
     float *scratch;
-    float mean[3]; /* Lab, taken off so that sums stay small */
+    float mean[3]; /* taken off so that sums stay small */
     double own;    /* squared length of the band at hand */
 } maker;
 
@@ -61,7 +61,7 @@ find_mean(maker *m)
 
     for (size_t i = 0; i < count; ++i)
         for (int32_t c = 0; c < 3; ++c)
-            sum[c] += pool->lab[3 * i + (size_t)c];
+            sum[c] += pool->colors[3 * i + (size_t)c];
     for (int32_t c = 0; c < 3; ++c)
         m->mean[c] = (float)(sum[c] / (double)count);
 }
@@ -70,12 +70,12 @@ find_mean(maker *m)
 static void
 put_texel(maker *m, int32_t number, size_t at, bool is_picture)
 {
-    const float *lab = m->search->pool->lab + 3 * (size_t)number;
+    const float *color = m->search->pool->colors + 3 * (size_t)number;
     float square = 0.0f;
 
     for (int32_t c = 0; c < 3; ++c)
     {
-        const float value = lab[c] - m->mean[c];
+        const float value = color[c] - m->mean[c];
 
         m->planes[c][at] = is_picture ? value : -2.0f * value;
         square += value * value;

@@ -21,7 +21,7 @@ typedef struct otx_ring_search
     const otx_frame_kit *kit;
     otx_tile_layout layout;
     size_t stride;
-    float **maps; /* [types * 4] of [height * stride]: sum of squared Lab
+    float **maps; /* [types * 4] of [height * stride]: sum of squared
                    * distances for a strip as side 0 to 3 */
     /* Windows may be at x0 <= x < x1, y0 <= y < y1. */
     int32_t x0, y0, x1, y1;
@@ -41,7 +41,7 @@ otx_status otx_ring_search_create(
     const otx_tile_layout *layout, const otx_ring_region *region,
     otx_ring_search *out);
 
-/* Mean squared Lab distance of a window to the frame of a tile, over the
+/* Mean squared distance of a window to the frame of a tile, over the
  * sides whose bits are set. */
 double otx_ring_search_error(
     const otx_ring_search *search, const otx_tile_name *name, int32_t sides,

@@ -13,7 +13,7 @@ typedef struct otx_strip
 {
     otx_texel_map map; /* [2 reach * side], row reach is d = 0 */
     int64_t cost;      /* of the cuts at both ends */
-    double seam;       /* mean Lab distance along them */
+    double seam;       /* mean distance along them */
 } otx_strip;
 
 /* Sizes that all strips and tiles of a set share, in texels. */

@@ -27,7 +27,7 @@ otx_template_extra(
     return options->edge_count * 2 * sizes->reach * sizes->side;
 }
 
-/* Mean and spread of the Lab of a map's texels. */
+/* Mean and spread of the colours of a map's texels. */
 typedef struct look
 {
     double mean[3];
@@ -48,13 +48,13 @@ look_at(
     for (int32_t y = rim_y; y < map->height - rim_y; ++y)
         for (int32_t x = rim_x; x < map->width - rim_x; ++x)
         {
-            const float *lab =
-                pool->lab + 3 * (size_t)otx_texel_map_at(map, x, y);
+            const float *color =
+                pool->colors + 3 * (size_t)otx_texel_map_at(map, x, y);
 
             for (int32_t c = 0; c < 3; ++c)
             {
-                l.mean[c] += lab[c] / count;
-                square += (double)lab[c] * lab[c] / count;
+                l.mean[c] += color[c] / count;
+                square += (double)color[c] * color[c] / count;
             }
         }
     for (int32_t c = 0; c < 3; ++c)

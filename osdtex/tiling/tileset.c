@@ -423,8 +423,8 @@ otx_tileset_make(
     OTX_TRY(create_picture(run, exemplar, out));
     OTX_TRY(open_arena(run, &own.arena));
     OTX_TRY(otx_texel_pool_create(
-        run, own.arena, exemplar, otx_template_extra(&kit.sizes, options),
-        &pool));
+        run, own.arena, exemplar, &exemplar->match,
+        otx_template_extra(&kit.sizes, options), &pool));
     OTX_TRY(open_looks(&own, &pool, &looks));
     OTX_TRY(otx_template_kit(&own, &pool, &looks, options, &out->layout, &kit));
     OTX_TRY(otx_ring_search_create(

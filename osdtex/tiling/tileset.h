@@ -40,7 +40,7 @@ typedef struct otx_tileset
     otx_tile_layout layout;
     otx_image linear; /* the picture, level 0 */
     int32_t tile_count;
-    /* Mean Lab distance along the cuts of corners, strips and insides. */
+    /* Mean distance along the cuts of corners, strips and insides. */
     double corner_seam, strip_seam, inner_seam;
     double random_pair; /* of two random texels */
 } otx_tileset;

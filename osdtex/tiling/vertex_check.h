@@ -12,7 +12,7 @@
 
 typedef struct otx_vertex_figures
 {
-    double vertex, inside; /* median distances in Lab; negative: not known */
+    double vertex, inside; /* median distances; negative: not known */
 } otx_vertex_figures;
 
 /* Looks up windows of search->size texels. The set has all its tiles.

@@ -50,6 +50,16 @@ class Tiles(ProgramTest):
             (self.folder / "out.exr").read_bytes(),
             (self.folder / "again.exr").read_bytes())
 
+    def test_distances_are_taken_where_they_are_asked_for(self):
+        """Lab is the default; every other choice finds other cuts."""
+        made = {}
+        for space in (None, "lab", "hsv", "hsv-cylinder", "rgb"):
+            more = () if space is None else ("--match-in", space)
+            made[space] = self.make(
+                PICTURES[1], *SMALL, *more, name=f"{space}.exr").read_bytes()
+        self.assertEqual(made[None], made["lab"])
+        self.assertEqual(len(set(made.values())), 4)
+
     def test_pictures_can_be_swapped(self):
         uvs = []
         for picture in PICTURES:

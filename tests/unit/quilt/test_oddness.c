@@ -38,7 +38,8 @@ oddness(int32_t width, int32_t (*row)(int32_t y))
     double odd = -1.0;
 
     assert_int_equal(
-        otx_texel_pool_create(run, run->arena, &e, 0, &pool), OSDTEX_OK);
+        otx_texel_pool_create(run, run->arena, &e, &e.lab, 0, &pool),
+        OSDTEX_OK);
     assert_int_equal(
         otx_texel_map_create(run, run->arena, width, HEIGHT, &map), OSDTEX_OK);
     for (int32_t y = 0; y < HEIGHT; ++y)

@@ -12,9 +12,9 @@ enum
 };
 
 static void
-set_lab(otx_texel_pool *pool, int32_t texel, const float lab[3])
+set_color(otx_texel_pool *pool, int32_t texel, const float color[3])
 {
-    memcpy(pool->lab + 3 * (size_t)texel, lab, 3 * sizeof *lab);
+    memcpy(pool->colors + 3 * (size_t)texel, color, 3 * sizeof *color);
 }
 
 /* Blobs, so that low frequencies tell places apart, and grain. */
@@ -28,19 +28,19 @@ make_pool(otx_run *run, otx_exemplar *exemplar)
         .height = SIDE,
         .count = SIDE * SIDE,
         .capacity = SIDE * SIDE,
-        .lab = OTX_NEW(run->arena, float, 3 * 2 * count),
+        .colors = OTX_NEW(run->arena, float, 3 * 2 * count),
     };
 
     for (int32_t i = 0; i < SIDE * SIDE; ++i)
     {
         const int32_t x = i % SIDE, y = i / SIDE;
         const uint64_t blob = (uint64_t)(x / 5 + 1000 * (y / 5));
-        const float lab[3] = {
+        const float color[3] = {
             (float)(60.0 * otx_random_unit(1, 1, blob) + 5.0 * otx_random_unit(1, 2, (uint64_t)i)),
             (float)(20.0 * otx_random_unit(1, 3, blob)),
             (float)(20.0 * otx_random_unit(1, 4, blob))};
 
-        set_lab(&pool, i, lab);
+        set_color(&pool, i, color);
     }
     return pool;
 }
@@ -78,7 +78,7 @@ test_copies_are_found(void **state)
         otx_texel_pool_lay(&pool, window, &map);
         for (int32_t i = 0; i < SIZE * SIZE; ++i)
         {
-            set_lab(&pool, pool.count + i, pool.lab + 3 * map.texels[i]);
+            set_color(&pool, pool.count + i, pool.colors + 3 * map.texels[i]);
             map.texels[i] = pool.count + i;
         }
         assert_int_equal(otx_patch_search_find(&search, &map, 3, found), 3);

@@ -34,7 +34,8 @@ begin(fixture *f, uint64_t seed)
             (float)(100.0 * otx_random_unit(seed, 0, (uint64_t)i));
     f->exemplar.linear = f->exemplar.match = f->exemplar.lab;
     assert_int_equal(
-        otx_texel_pool_create(f->run, f->run->arena, &f->exemplar, 0, &f->pool),
+        otx_texel_pool_create(
+            f->run, f->run->arena, &f->exemplar, &f->exemplar.lab, 0, &f->pool),
         OSDTEX_OK);
     assert_int_equal(
         otx_quilt_create(

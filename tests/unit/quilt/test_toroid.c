@@ -141,7 +141,8 @@ test_no_cuts_no_oddness(void **state)
 
     (void)state;
     assert_int_equal(
-        otx_texel_pool_create(run, run->arena, &e, 0, &pool), OSDTEX_OK);
+        otx_texel_pool_create(run, run->arena, &e, &e.lab, 0, &pool),
+        OSDTEX_OK);
     assert_int_equal(
         otx_texel_map_create(run, run->arena, 96, 96, &map), OSDTEX_OK);
     for (int32_t i = 0; i < 96 * 96; ++i)
