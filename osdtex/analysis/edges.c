@@ -2,6 +2,8 @@
  * of rows, so that they do not depend on the number of threads. */
 #include "analysis/edges.h"
 
+#include "image/view.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -18,17 +20,6 @@ typedef struct finding
     row_sum *sums; /* [height] */
 } finding;
 
-/* The neighbour of i, in a picture of n texels. */
-static int32_t
-beside(int32_t i, int32_t step, int32_t n, bool wrap)
-{
-    const int32_t j = i + step;
-
-    if (j >= 0 && j < n)
-        return j;
-    return wrap ? otx_image_wrap(j, n) : i;
-}
-
 /* Eight times the derivative along one axis, and along the other with the
  * rows for columns. */
 static double
@@ -44,11 +35,11 @@ strength_at(const finding *f, int32_t x, int32_t y)
 {
     const otx_image *image = f->image;
     const int32_t xs[3] = {
-        beside(x, -1, image->width, f->wrap_x), x,
-        beside(x, 1, image->width, f->wrap_x)};
+        otx_view_fold(x + (-1), image->width, f->wrap_x), x,
+        otx_view_fold(x + (1), image->width, f->wrap_x)};
     const int32_t ys[3] = {
-        beside(y, -1, image->height, f->wrap_y), y,
-        beside(y, 1, image->height, f->wrap_y)};
+        otx_view_fold(y + (-1), image->height, f->wrap_y), y,
+        otx_view_fold(y + (1), image->height, f->wrap_y)};
     const float *left[3], *right[3], *below[3], *above[3];
     double sum = 0.0;
 

@@ -1,6 +1,8 @@
 /* lags.c -- how like itself a square is when it is moved. */
 #include "analysis/lags.h"
 
+#include "image/view.h"
+
 #include <string.h>
 
 otx_status
@@ -123,8 +125,7 @@ otx_lags_at(const otx_lags *map, otx_vec2 p)
 
     if (i < 0 || j < 0 || i + 1 >= w || j + 1 >= w)
         return NAN;
-    return (1 - v) * ((1 - u) * at[0] + u * at[1]) +
-           v * ((1 - u) * at[w] + u * at[w + 1]);
+    return otx_view_mix(at[0], at[1], at[w], at[w + 1], u, v);
 }
 
 /* Mean correlation from `near` to `far` texels away. */

@@ -2,6 +2,8 @@
  * to them. */
 #include "analysis/outline.h"
 
+#include "image/view.h"
+
 #include <string.h>
 
 enum
@@ -25,21 +27,14 @@ typedef struct plane
     float *values; /* [height * width] */
 } plane;
 
-static int32_t
-along(int32_t i, int32_t size, bool wrap)
-{
-    if (wrap)
-        return otx_image_wrap(i, size);
-    return i < 0 ? 0 : i >= size ? size - 1 : i;
-}
-
 /* The index of the texel dx, dy away; at borders that do not wrap, that of the
  * border. */
 static size_t
 beside(const plane *p, int32_t x, int32_t y, int32_t dx, int32_t dy)
 {
-    return (size_t)along(y + dy, p->height, p->wrap_y) * (size_t)p->width +
-           (size_t)along(x + dx, p->width, p->wrap_x);
+    return (size_t)otx_view_fold(y + dy, p->height, p->wrap_y) *
+               (size_t)p->width +
+           (size_t)otx_view_fold(x + dx, p->width, p->wrap_x);
 }
 
 /* [1 2 1] / 4 along one axis, of three channels. */

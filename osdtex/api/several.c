@@ -9,6 +9,7 @@
 #include "api/exemplar_names.h"
 #include "api/mask_pictures.h"
 #include "method/demand.h"
+#include "seam/unit.h"
 
 #include <math.h>
 #include <string.h>
@@ -93,7 +94,7 @@ take_exemplar(
 {
     const otx_exemplar *from = &also->exemplar->exemplar;
     const double texels =
-        handle->exemplar->exemplar.match.width / handle->request.scale;
+        otx_unit_texels(&handle->exemplar->exemplar, handle->request.scale);
     const double width = also->scale > 0.0 ? floor(also->scale * texels + 0.5)
                                            : from->match.width;
     const double height =

@@ -10,6 +10,7 @@
 #include "bench/match_scene.h"
 #include "bench/stopwatch.h"
 
+#include "image/view.h"
 #include "match/mask.h"
 
 #include <math.h>
@@ -58,7 +59,8 @@ draw_span(void *context, const otx_mask_span *span)
             otx_vec2_add(span->source, otx_vec2_scale(i, span->source_step));
         float color[CHANNELS];
 
-        otx_image_sample(&d->scene->image, true, true, source, color);
+        otx_view_value(
+            otx_view_of(&d->scene->image, true, true), source, color);
         for (int c = 0; c < CHANNELS; ++c)
             d->planes[(size_t)c * area + at] += color[c];
         d->planes[CHANNELS * area + at] += 1.0f;

@@ -1,12 +1,5 @@
-/* image.c -- creating, sampling and halving pictures. */
+/* image.c -- creating and halving pictures. */
 #include "image/image.h"
-
-/* The two texels a bilinear sample mixes along one axis. */
-typedef struct tap
-{
-    int32_t low, high;
-    double weight; /* of `high` */
-} tap;
 
 otx_status
 otx_image_create(
@@ -32,50 +25,6 @@ otx_image_create(
         return otx_fail_memory(run, "image");
     *out = (otx_image){width, height, channels, pixels};
     return OSDTEX_OK;
-}
-
-/* `x` in texel units from the first texel's centre. Comparisons are written so
- * that NaN and infinities land on a texel too. */
-static tap
-tap_at(double x, int32_t side, bool wrap)
-{
-    if (wrap)
-    {
-        x -= side * floor(x / side);
-        if (!(x >= 0.0 && x < side))
-            x = 0.0;
-    }
-    else if (!(x > 0.0))
-        x = 0.0;
-    else if (x > side - 1)
-        x = side - 1;
-
-    const int32_t low = (int32_t)x;
-    const int32_t next = low + 1;
-
-    return (tap){low, next < side ? next : wrap ? 0 : low, x - low};
-}
-
-void
-otx_image_sample(
-    const otx_image *image, bool wrap_x, bool wrap_y, otx_vec2 texel,
-    float *color)
-{
-    const tap x = tap_at(texel.x - 0.5, image->width, wrap_x);
-    const tap y = tap_at(texel.y - 0.5, image->height, wrap_y);
-    const float *c00 = otx_image_at(image, x.low, y.low);
-    const float *c10 = otx_image_at(image, x.high, y.low);
-    const float *c01 = otx_image_at(image, x.low, y.high);
-    const float *c11 = otx_image_at(image, x.high, y.high);
-
-    for (int32_t c = 0; c < image->channels; ++c)
-    {
-        /* (1 - t) a + t b, not a + t (b - a): a constant stays constant. */
-        const double low = (1.0 - x.weight) * c00[c] + x.weight * c10[c];
-        const double high = (1.0 - x.weight) * c01[c] + x.weight * c11[c];
-
-        color[c] = (float)((1.0 - y.weight) * low + y.weight * high);
-    }
 }
 
 /* Mean of the texels of `image` under texel (x, y) of its half. */

@@ -53,12 +53,6 @@ otx_image_distance_sq(const float *a, const float *b)
     return x * x + y * y + z * z;
 }
 
-/* Bilinear sample at `texel` (texel units), into color[channels]. Wraps where
- * `wrap` is true, else clamps to the border texel centres. */
-void otx_image_sample(
-    const otx_image *image, bool wrap_x, bool wrap_y, otx_vec2 texel,
-    float *color);
-
 /* Half size by a 2 × 2 box (odd sizes: the last row and column are averaged
  * over what is there), at least 1 × 1. */
 otx_status otx_image_halve(

@@ -1,6 +1,8 @@
 /* texture.c -- mip levels and anisotropic lookups. */
 #include "image/texture.h"
 
+#include "image/view.h"
+
 #include <string.h>
 
 enum
@@ -37,32 +39,10 @@ static void
 look_up(const otx_texture *texture, int32_t level, otx_vec2 uv, float *color)
 {
     const otx_image *image = &texture->pyramid.levels[level];
-    const double x = uv.x * image->width - 0.5;
-    const double y = uv.y * image->height - 0.5;
-    const size_t stride = (size_t)image->width * (size_t)image->channels;
 
-    if (!(x >= 0.0 && y >= 0.0 && x < image->width - 1 &&
-          y < image->height - 1))
-    {
-        otx_image_sample(
-            image, texture->wrap_x, texture->wrap_y,
-            (otx_vec2){x + 0.5, y + 0.5}, color);
-        return;
-    }
-
-    /* As otx_image_sample does it, where nothing wraps or is held. */
-    const int32_t i = (int32_t)x, j = (int32_t)y;
-    const double u = x - i, v = y - j;
-    const float *low = otx_image_at(image, i, j), *high = low + stride;
-
-    for (int32_t c = 0; c < image->channels; ++c)
-    {
-        const int32_t next = c + image->channels;
-        const double below = (1.0 - u) * low[c] + u * low[next];
-        const double above = (1.0 - u) * high[c] + u * high[next];
-
-        color[c] = (float)((1.0 - v) * below + v * above);
-    }
+    otx_view_value(
+        otx_view_of(image, texture->wrap_x, texture->wrap_y),
+        (otx_vec2){uv.x * image->width, uv.y * image->height}, color);
 }
 
 /* Linear between the two levels around the probes' width. */

@@ -4,174 +4,13 @@
  * are continuous there, and a chart that is torn inside one patch is not. */
 #include "mapping/seam.h"
 
-#include <assert.h>
-
-void
-otx_seam_corners(
-    const otx_level *level, int32_t edge, int32_t face, int32_t corners[2])
-{
-    const int32_t first = level->face_first[face];
-    const int32_t size = otx_level_face_size(level, face);
-    int32_t k = 0;
-
-    while (k + 1 < size && level->face_edges[first + k] != edge)
-        ++k;
-    assert(level->face_edges[first + k] == edge);
-
-    const int32_t from = first + k;
-    const int32_t to = first + (k + 1 == size ? 0 : k + 1);
-    const bool along =
-        level->face_verts[from] == level->edge_verts[2 * (size_t)edge];
-
-    corners[0] = along ? from : to;
-    corners[1] = along ? to : from;
-}
-
-bool
-otx_seam_continuous(
-    const otx_exemplar *exemplar, const otx_vec2 a[2], const otx_vec2 b[2])
-{
-    const double width = exemplar->match.width;
-    const double height = exemplar->match.height;
-    otx_vec2 shift = otx_vec2_sub(b[0], a[0]);
-
-    shift.x = exemplar->wrap_x ? width * round(shift.x / width) : 0.0;
-    shift.y = exemplar->wrap_y ? height * round(shift.y / height) : 0.0;
-    for (int k = 0; k < 2; ++k)
-    {
-        const otx_vec2 d = otx_vec2_sub(otx_vec2_sub(b[k], a[k]), shift);
-
-        /* Written so that NaN is a seam. */
-        if (!(fabs(d.x) <= OTX_SEAM_TOLERANCE &&
-              fabs(d.y) <= OTX_SEAM_TOLERANCE))
-            return false;
-    }
-    return true;
-}
-
-int32_t
-otx_seam_sample_count(double length)
-{
-    if (!(length > 2.0))
-        return 2;
-    return length < OTX_SEAM_SAMPLES_MAX ? (int32_t)ceil(length)
-                                         : OTX_SEAM_SAMPLES_MAX;
-}
-
-/* The two texels around a coordinate and the weight of the second. */
-typedef struct tap
-{
-    size_t index[2];
-    float weight;
-} tap;
-
-static tap
-tap_at(double position, int32_t size, bool wrap)
-{
-    const double below = floor(position - 0.5);
-    tap t = {.weight = (float)(position - 0.5 - below)};
-
-    for (int k = 0; k < 2; ++k)
-    {
-        double i = below + k;
-
-        if (wrap)
-            i -= size * floor(i / size);
-        /* Written so that NaN reads the first texel. */
-        i = i > 0.0 ? i : 0.0;
-        t.index[k] = (size_t)(i < size - 1 ? i : size - 1);
-    }
-    return t;
-}
-
-/* Mixes the four texels around a place, three channels. */
-static inline void
-mix(const float *below[2], const float *above[2], float u, float v, float *out)
-{
-    for (int c = 0; c < 3; ++c)
-    {
-        const float b = below[0][c] + u * (below[1][c] - below[0][c]);
-        const float a = above[0][c] + u * (above[1][c] - above[0][c]);
-
-        out[c] = b + v * (a - b);
-    }
-}
-
-static void
-sample(
-    const otx_image *image, bool wrap_x, bool wrap_y, otx_vec2 p, float *color)
-{
-    const tap x = tap_at(p.x, image->width, wrap_x);
-    const tap y = tap_at(p.y, image->height, wrap_y);
-    const size_t stride = 3 * (size_t)image->width;
-    const float *row[2] = {
-        image->pixels + y.index[0] * stride,
-        image->pixels + y.index[1] * stride};
-    const float *below[2] = {row[0] + 3 * x.index[0], row[0] + 3 * x.index[1]};
-    const float *above[2] = {row[1] + 3 * x.index[0], row[1] + 3 * x.index[1]};
-
-    mix(below, above, x.weight, y.weight, color);
-}
-
-/* The same half a texel inside the picture, where nothing wraps or clamps:
- * most of the time of a seam cut is spent here. */
-static inline void
-sample_inside(const otx_image *image, otx_vec2 p, float *color)
-{
-    const double x = p.x - 0.5, y = p.y - 0.5;
-    const int32_t i = (int32_t)x, j = (int32_t)y;
-    const float *at = otx_image_at(image, i, j);
-    const float *up = at + 3 * (size_t)image->width;
-    const float *below[2] = {at, at + 3};
-    const float *above[2] = {up, up + 3};
-
-    mix(below, above, (float)(x - i), (float)(y - j), color);
-}
-
-/* Whether all four texels around a place are in the picture. */
-static bool
-inside(const otx_image *image, otx_vec2 p)
-{
-    return p.x >= 0.5 && p.y >= 0.5 && p.x < image->width - 0.5 &&
-           p.y < image->height - 0.5;
-}
-
-void
-otx_seam_sample(
-    const otx_image *image, bool wrap_x, bool wrap_y, const otx_vec2 side[2],
-    double offset, int32_t count, float *colors)
-{
-    const otx_vec2 along = otx_vec2_sub(side[1], side[0]);
-    const double length = otx_vec2_length(along);
-    const double step = length > 0.0 ? offset / length : 0.0;
-    otx_vec2 start =
-        otx_vec2_add(side[0], (otx_vec2){-step * along.y, step * along.x});
-
-    if (wrap_x)
-        start.x -= image->width * floor(start.x / image->width);
-    if (wrap_y)
-        start.y -= image->height * floor(start.y / image->height);
-
-    const bool fast =
-        inside(image, start) && inside(image, otx_vec2_add(start, along));
-
-    for (int32_t i = 0; i < count; ++i)
-    {
-        const otx_vec2 p =
-            otx_vec2_add(start, otx_vec2_scale((i + 0.5) / count, along));
-        float *color = colors + 3 * (size_t)i;
-
-        if (fast)
-            sample_inside(image, p, color);
-        else
-            sample(image, wrap_x, wrap_y, p, color);
-    }
-}
+#include "seam/difference.h"
+#include "seam/unit.h"
 
 double
 otx_seam_density(const otx_mapping *mapping, const otx_exemplar *exemplars)
 {
-    return exemplars->match.width / mapping->scale;
+    return otx_unit_texels(exemplars, mapping->scale);
 }
 
 bool
@@ -293,10 +132,8 @@ sample_seam(void *context, int64_t index, otx_worker *worker)
     {
         const float *a = colors + 3 * (size_t)i;
         const float *b = a + 3 * (size_t)count;
-        const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 
-        s->samples[first + i] =
-            (float)sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        s->samples[first + i] = (float)otx_difference(a, b);
     }
     return OSDTEX_OK;
 }

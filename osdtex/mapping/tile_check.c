@@ -1,6 +1,8 @@
 /* tile_check.c -- samples along edges and at vertices, and counts of cells. */
 #include "mapping/tile_check.h"
 
+#include "image/view.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -17,8 +19,8 @@ uv_of(const otx_mapping *mapping, int32_t corner)
 static void
 sample(const otx_image *level, otx_vec2 uv, float *color)
 {
-    otx_image_sample(
-        level, false, false,
+    otx_view_value(
+        otx_view_of(level, false, false),
         (otx_vec2){uv.x * level->width, uv.y * level->height}, color);
 }
 

@@ -6,6 +6,8 @@
  * the resolution, then local at full resolution for the best few angles. */
 #include "mapping/window.h"
 
+#include "image/view.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -146,8 +148,8 @@ fill_triangle(
             continue;
         w->valid[i] = 1;
         ++w->filled;
-        otx_image_sample(
-            &from->lab, from->wrap_x, from->wrap_y,
+        otx_view_value(
+            otx_view_of(&from->lab, from->wrap_x, from->wrap_y),
             otx_vec2_add(
                 otx_vec2_scale(1.0 - s - t, uv[0]),
                 otx_vec2_add(
@@ -302,14 +304,6 @@ turn_window(
     return count;
 }
 
-static int32_t
-fold_index(int32_t i, int32_t size, bool wrap)
-{
-    if (wrap)
-        return otx_image_wrap(i, size);
-    return i < 0 ? 0 : i < size ? i : size - 1;
-}
-
 /* Adds the border to a coarse picture, so that the search need not wrap. */
 static otx_status
 pad_coarse(
@@ -324,8 +318,8 @@ pad_coarse(
             memcpy(
                 otx_image_at(out, x, y),
                 otx_image_at(
-                    inner, fold_index(x - PAD, inner->width, from->wrap_x),
-                    fold_index(y - PAD, inner->height, from->wrap_y)),
+                    inner, otx_view_fold(x - PAD, inner->width, from->wrap_x),
+                    otx_view_fold(y - PAD, inner->height, from->wrap_y)),
                 3 * sizeof(float));
     return OSDTEX_OK;
 }
@@ -393,8 +387,8 @@ pose_error(const lookup *l, const window *w, pose at, int32_t stride)
 
             if (!w->valid[y * SIDE + x])
                 continue;
-            otx_image_sample(
-                &from->lab, from->wrap_x, from->wrap_y,
+            otx_view_value(
+                otx_view_of(&from->lab, from->wrap_x, from->wrap_y),
                 otx_vec2_add(at.centre, otx_vec2_mul(turn, off)), color);
             ++count;
             for (int c = 0; c < 3; ++c)

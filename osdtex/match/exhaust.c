@@ -151,8 +151,8 @@ valid_offsets(
         *begin = (int32_t)floor(0.5 * (low + high) / pixel + base + 0.5);
         *end = *begin + 1;
     }
-    *begin = otx_plane_wrap_index(*begin, size, false);
-    *end = otx_plane_wrap_index(*end - 1, size, false) + 1;
+    *begin = otx_view_fold(*begin, size, false);
+    *end = otx_view_fold(*end - 1, size, false) + 1;
     return true;
 }
 

@@ -187,14 +187,13 @@ score_span(void *context, const otx_mask_span *span)
     const otx_plane *plane = s->plane;
     const otx_plane *from =
         otx_matcher_source(s->mask->triangles[span->triangle].from, plane);
-    const int32_t y =
-        otx_plane_wrap_index(span->y, plane->height, plane->wrap_y);
+    const int32_t y = otx_view_fold(span->y, plane->height, plane->wrap_y);
     double sum = 0.0, weights = 0.0;
 
     for (int32_t n = 0; n < span->count; ++n)
     {
         const int32_t x =
-            otx_plane_wrap_index(span->x + n, plane->width, plane->wrap_x);
+            otx_view_fold(span->x + n, plane->width, plane->wrap_x);
         const double linear = span->weight + n * span->weight_step;
         const double weight = linear > 0.0 ? linear : 0.0;
         const otx_vec2 source = {

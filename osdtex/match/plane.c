@@ -87,10 +87,8 @@ fill_apron(otx_plane *plane)
         for (int32_t x = -OTX_PLANE_APRON; x < plane->width + OTX_PLANE_APRON;
              ++x)
         {
-            const int32_t i =
-                otx_plane_wrap_index(x, plane->width, plane->wrap_x);
-            const int32_t j =
-                otx_plane_wrap_index(y, plane->height, plane->wrap_y);
+            const int32_t i = otx_view_fold(x, plane->width, plane->wrap_x);
+            const int32_t j = otx_view_fold(y, plane->height, plane->wrap_y);
 
             if (i != x || j != y)
                 memcpy(

@@ -7,7 +7,7 @@
 #ifndef OTX_MATCH_PLANE_H
 #define OTX_MATCH_PLANE_H
 
-#include "image/image.h"
+#include "image/view.h"
 #include "math/fft.h"
 
 enum
@@ -63,17 +63,6 @@ otx_plane_wrap(double x, int32_t size, bool wrap)
         return near;
     x -= size * floor(x / size);
     return x < size ? x : 0.0; /* -epsilon rounds up to size */
-}
-
-static inline int32_t
-otx_plane_wrap_index(int32_t x, int32_t size, bool wrap)
-{
-    if (!wrap)
-        return x < 0 ? 0 : x >= size ? size - 1 : x;
-    if (x >= 0 && x < size)
-        return x;
-    x %= size;
-    return x < 0 ? x + size : x;
 }
 
 /* Bilinear sample at pixel coordinates that otx_plane_wrap has brought in. */

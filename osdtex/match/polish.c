@@ -131,8 +131,8 @@ snap(
     otx_plane_sample(
         from, otx_plane_wrap(x / from->pixel.x, from->width, from->wrap_x),
         otx_plane_wrap(y / from->pixel.y, from->height, from->wrap_y), s.color);
-    s.x = otx_plane_wrap_index((int32_t)cell.x, plane->width, plane->wrap_x);
-    s.y = otx_plane_wrap_index((int32_t)cell.y, plane->height, plane->wrap_y);
+    s.x = otx_view_fold((int32_t)cell.x, plane->width, plane->wrap_x);
+    s.y = otx_view_fold((int32_t)cell.y, plane->height, plane->wrap_y);
     return s;
 }
 

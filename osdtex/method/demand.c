@@ -2,6 +2,7 @@
 #include "method/demand.h"
 
 #include "image/udim.h"
+#include "image/view.h"
 #include "method/density.h"
 
 #include <stdio.h>
@@ -96,9 +97,9 @@ add_weights(const otx_image *mask, otx_vec2 uv, double weights[4])
     float color[OTX_IMAGE_MAX_CHANNELS];
     double sum = 0.0;
 
-    otx_image_sample(
-        mask, false, false, (otx_vec2){uv.x * mask->width, uv.y * mask->height},
-        color);
+    otx_view_value(
+        otx_view_of(mask, false, false),
+        (otx_vec2){uv.x * mask->width, uv.y * mask->height}, color);
     for (int k = 0; k < 3; ++k)
     {
         const double w = fmin(fmax(color[k], 0.0), 1.0);

@@ -3,6 +3,7 @@
 
 #include "mapping/mapping_check.h"
 #include "mapping/seam.h"
+#include "seam/unit.h"
 
 #include <string.h>
 #include <time.h>
@@ -181,7 +182,7 @@ otx_method_choose(
     otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     const otx_map_request *request, const otx_method **out)
 {
-    const double texels = exemplar->match.width / request->scale;
+    const double texels = otx_unit_texels(exemplar, request->scale);
     const otx_method *lattice = otx_method_find("material");
     otx_analysis a;
     double cells = 0.0;

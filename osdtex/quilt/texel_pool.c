@@ -1,6 +1,7 @@
 /* texel_pool.c -- texels by number, and windows of them. */
 #include "quilt/texel_pool.h"
 #include "base/random.h"
+#include "image/view.h"
 
 #include <string.h>
 
@@ -160,10 +161,11 @@ otx_texel_pool_resample(
             const size_t n = (size_t)pool->count++;
             float color[3];
 
-            otx_image_sample(
-                &e->linear, e->wrap_x, e->wrap_y, at,
+            otx_view_value(
+                otx_view_of(&e->linear, e->wrap_x, e->wrap_y), at,
                 pool->linear + n * (size_t)pool->channels);
-            otx_image_sample(pool->compared, e->wrap_x, e->wrap_y, at, color);
+            otx_view_value(
+                otx_view_of(pool->compared, e->wrap_x, e->wrap_y), at, color);
             scale_color(pool, color, pool->colors + n * 3);
             *texel++ = (int32_t)n;
         }

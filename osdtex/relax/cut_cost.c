@@ -1,7 +1,9 @@
 /* cut_cost.c -- colour differences along edges, rounded to whole numbers. */
 #include "relax/cut_cost.h"
 
-#include "mapping/seam.h"
+#include "image/view.h"
+#include "seam/difference.h"
+#include "seam/edge.h"
 
 #include <string.h>
 
@@ -74,9 +76,9 @@ through(const otx_cut_cost *cost, const flank *side, int32_t count)
             otx_vec2_lerp(side->ends[0], side->ends[1], (i + 0.5) / count);
         float depth;
 
-        otx_image_sample(
-            outline, e->wrap_x, e->wrap_y, (otx_vec2){p.x * wide, p.y * high},
-            &depth);
+        otx_view_value(
+            otx_view_of(outline, e->wrap_x, e->wrap_y),
+            (otx_vec2){p.x * wide, p.y * high}, &depth);
         sum += (double)depth;
     }
     return cost->options->through * e->match_sigma * sum / count;
@@ -116,19 +118,10 @@ mean_difference(
     int32_t count)
 {
     float p[3 * SAMPLES_MAX], q[3 * SAMPLES_MAX];
-    double sum = 0.0;
 
     sample(cost, &sides[0], offset, count, p);
     sample(cost, &sides[1], offset, count, q);
-    for (int32_t i = 0; i < 3 * count; i += 3)
-    {
-        const double x = p[i] - q[i];
-        const double y = p[i + 1] - q[i + 1];
-        const double z = p[i + 2] - q[i + 2];
-
-        sum += sqrt(x * x + y * y + z * z);
-    }
-    return sum / count;
+    return otx_difference_mean(p, q, count);
 }
 
 /* On the edge itself and, at half the samples, on each side of it: colours

@@ -3,6 +3,9 @@
 
 #include "base/random.h"
 #include "flatten/descent.h"
+#include "image/view.h"
+#include "seam/difference.h"
+#include "seam/edge.h"
 
 enum
 {
@@ -58,7 +61,7 @@ typedef struct nudge
 static void
 sample(const otx_exemplar *e, otx_vec2 at, float color[3])
 {
-    otx_image_sample(&e->match, e->wrap_x, e->wrap_y, at, color);
+    otx_view_value(otx_view_of(&e->match, e->wrap_x, e->wrap_y), at, color);
 }
 
 /* What a textured face shows. */
@@ -84,13 +87,9 @@ textured_across(const nudge *n, int32_t i, int32_t k)
 static int32_t
 sample_count(const nudge *n, int32_t edge, double *length)
 {
-    const int32_t *v = n->leaf->edge_verts + 2 * (size_t)edge;
-    const float *points = n->request->surface->points;
-
-    *length = n->request->texels *
-              otx_vec3_length(otx_vec3_sub(
-                  otx_vec3_load(points, v[0]), otx_vec3_load(points, v[1])));
-    return *length < 2.0 ? 2 : (int32_t)ceil(*length);
+    *length =
+        n->request->texels * otx_seam_edge_length(n->request->surface, edge);
+    return otx_seam_sample_count(*length);
 }
 
 /* The neighbour's UVs at the ends of the edge, in this face's order; the
@@ -187,12 +186,16 @@ border_energy(const nudge *n, const border *b, otx_vec2 delta, bool hat)
     {
         const double t = (s + 0.5) / b->count;
         const float *far = n->colors + 3 * (size_t)(b->first + s);
-        double square = 0.0;
+        double square, ours[3], theirs[3];
         float near[3];
 
         sample(n->request->exemplar, otx_vec2_lerp(from, to, t), near);
         for (int c = 0; c < 3; ++c)
-            square += ((double)near[c] - far[c]) * ((double)near[c] - far[c]);
+        {
+            ours[c] = near[c];
+            theirs[c] = far[c];
+        }
+        square = otx_difference_add_sq(0.0, ours, theirs);
         if (hat)
             square *= (1.0 - t) * n->hat[b->a] + t * n->hat[b->b];
         sum += square;

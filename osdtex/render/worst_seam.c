@@ -6,7 +6,9 @@
  * picture. Colours are compared as square roots, about as they are seen. */
 #include "render/worst_seam.h"
 
+#include "image/view.h"
 #include "render/island.h"
+#include "seam/difference.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -98,8 +100,8 @@ color_at(const otx_scene *scene, const side *s, double t, double color[3])
         return;
     texture = &scene->textures[index];
     uv = uv_at(scene, s, t);
-    otx_image_sample(
-        &texture->image, texture->wrap_x, texture->wrap_y,
+    otx_view_value(
+        otx_view_of(&texture->image, texture->wrap_x, texture->wrap_y),
         (otx_vec2){uv.x * texture->image.width, uv.y * texture->image.height},
         pixel);
     for (int32_t k = 0; k < 3; ++k)
@@ -119,8 +121,7 @@ difference(const otx_scene *scene, const side sides[2])
 
         color_at(scene, &sides[0], t, a);
         color_at(scene, &sides[1], t, b);
-        for (int32_t k = 0; k < 3; ++k)
-            sum += (a[k] - b[k]) * (a[k] - b[k]);
+        sum = otx_difference_add_sq(sum, a, b);
     }
     return sqrt(sum / SAMPLES);
 }

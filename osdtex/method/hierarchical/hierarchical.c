@@ -6,6 +6,7 @@
 #include "method/hierarchical/hierarchical.h"
 
 #include "method/density.h"
+#include "seam/unit.h"
 
 /* Flattens the nodes from `first` on, splits what is not flat, and goes on with
  * the children, until all are. */
@@ -223,7 +224,7 @@ cover(
     m->request = request;
     m->given = given;
     m->stats = stats;
-    m->texels = exemplars->match.width / request->scale;
+    m->texels = otx_unit_texels(exemplars, request->scale);
     list_supplies(m, settings, guides);
     stats->threshold = m->settings.tau;
 

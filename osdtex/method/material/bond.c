@@ -7,6 +7,7 @@
 #include "method/material/strips.h"
 
 #include "analysis/courses.h"
+#include "image/view.h"
 
 #include <string.h>
 
@@ -41,8 +42,8 @@ read_columns(const otx_material *m, columns *out)
     for (int32_t c = 0; c < m->courses.count; ++c)
         for (int32_t i = 0; i < out->count; ++i)
             for (int32_t k = 0; k < SAMPLES; ++k, to += 3)
-                otx_image_sample(
-                    &m->exemplar->match, true, true,
+                otx_view_value(
+                    otx_view_of(&m->exemplar->match, true, true),
                     otx_courses_texel(
                         &m->courses, (i + 0.5) * m->courses.period / out->count,
                         c + (k + 0.5) / SAMPLES),

@@ -2,6 +2,8 @@
  */
 #include "method/material/coursing.h"
 
+#include "seam/unit.h"
+
 #include <string.h>
 
 static otx_status
@@ -208,7 +210,7 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
         .request = request,
         .settings = settings,
         .stats = stats,
-        .texels = exemplar->match.width / request->scale,
+        .texels = otx_unit_texels(exemplar, request->scale),
     };
 
     OTX_TRY(choose_lattice(&m));

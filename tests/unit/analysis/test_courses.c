@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include "base/random.h"
+#include "image/view.h"
 
 #include <math.h>
 
@@ -89,11 +90,12 @@ texels_lie_in_their_course(void **state)
 
             for (double along = 0.5; along < SIDE; along += 1.0)
             {
-                otx_image_sample(
-                    &image, true, true, otx_courses_texel(&c, along, k), joint);
-                otx_image_sample(
-                    &image, true, true, otx_courses_texel(&c, along, k + 0.5),
-                    middle);
+                otx_view_value(
+                    otx_view_of(&image, true, true),
+                    otx_courses_texel(&c, along, k), joint);
+                otx_view_value(
+                    otx_view_of(&image, true, true),
+                    otx_courses_texel(&c, along, k + 0.5), middle);
                 sums[0] += (double)joint[0] / SIDE;
                 sums[1] += (double)middle[0] / SIDE;
             }

@@ -1,5 +1,6 @@
 /* test_bake.c -- a baked texture shows what the mapping shows: inside, in the
  * margins, at every level, and whatever the number of threads. */
+#include "image/view.h"
 #include "unit/bake/flat.h"
 
 #include <stdlib.h>
@@ -118,7 +119,7 @@ look(
         (low[0] + s * (high[0] - low[0])) * image->width,
         (low[1] + t * (high[1] - low[1])) * image->height};
 
-    otx_image_sample(image, false, false, at, color);
+    otx_view_value(otx_view_of(image, false, false), at, color);
 }
 
 static double

@@ -1,5 +1,6 @@
 /* test_curved.c -- on curved cages, what a renderer sees of both sides of an
  * edge that the texture is cut at: no level jumps more than inside. */
+#include "image/view.h"
 #include "unit/bake/flat.h"
 
 enum
@@ -88,8 +89,10 @@ compare(const scene *s, otx_vec2 a, otx_vec2 b, jumps *to)
     double most = 0.0;
     float x[3], y[3];
 
-    otx_image_sample(s->image, false, false, otx_vec2_scale(side, a), x);
-    otx_image_sample(s->image, false, false, otx_vec2_scale(side, b), y);
+    otx_view_value(
+        otx_view_of(s->image, false, false), otx_vec2_scale(side, a), x);
+    otx_view_value(
+        otx_view_of(s->image, false, false), otx_vec2_scale(side, b), y);
     for (int c = 0; c < 3; ++c)
         most = fmax(most, fabs((double)x[c] - y[c]));
     to->most = fmax(to->most, most);

@@ -1,4 +1,4 @@
-/* test_image.c -- limits, sampling and halving of pictures. */
+/* test_image.c -- limits and halving of pictures. */
 #include "support.h"
 
 #include "image/image.h"
@@ -56,100 +56,6 @@ test_memory_limit_is_an_error(void **state)
 }
 
 static void
-test_centres_sample_exactly(void **state)
-{
-    otx_run *run = test_run_create();
-    const otx_image image = numbered(run, 7, 5, 3);
-
-    (void)state;
-    for (int32_t y = 0; y < 5; ++y)
-        for (int32_t x = 0; x < 7; ++x)
-            for (int wrap = 0; wrap < 2; ++wrap)
-            {
-                float color[3];
-
-                otx_image_sample(
-                    &image, wrap, wrap, (otx_vec2){x + 0.5, y + 0.5}, color);
-                assert_memory_equal(
-                    color, otx_image_at(&image, x, y), sizeof color);
-            }
-    test_run_destroy(run);
-}
-
-static void
-test_wrapped_sampling_is_periodic(void **state)
-{
-    otx_run *run = test_run_create();
-    const otx_image image = numbered(run, 8, 4, 3);
-
-    (void)state;
-    for (int i = 0; i < 100; ++i)
-    {
-        const otx_vec2 at = {i * 0.125, i * 0.0625};
-        const otx_vec2 far_away = {at.x - 16.0, at.y + 400.0};
-        float a[3], b[3];
-
-        otx_image_sample(&image, true, true, at, a);
-        otx_image_sample(&image, true, true, far_away, b);
-        assert_memory_equal(a, b, sizeof a);
-    }
-    test_run_destroy(run);
-}
-
-static void
-test_wrapped_seam_mixes_both_ends(void **state)
-{
-    otx_run *run = test_run_create();
-    const otx_image image = numbered(run, 8, 1, 1);
-    float seam;
-
-    (void)state;
-    otx_image_sample(&image, true, false, (otx_vec2){0.0, 0.5}, &seam);
-    assert_float_equal(seam, 0.5 * (image.pixels[0] + image.pixels[7]), 0.0);
-    test_run_destroy(run);
-}
-
-static void
-test_clamped_sampling_stays_on_the_rim(void **state)
-{
-    otx_run *run = test_run_create();
-    const otx_image image = numbered(run, 6, 3, 1);
-    float color;
-
-    (void)state;
-    otx_image_sample(&image, false, false, (otx_vec2){-100.0, 1.5}, &color);
-    assert_float_equal(color, *otx_image_at(&image, 0, 1), 0.0);
-    otx_image_sample(&image, false, false, (otx_vec2){1e30, 1e30}, &color);
-    assert_float_equal(color, *otx_image_at(&image, 5, 2), 0.0);
-    test_run_destroy(run);
-}
-
-static void
-test_constant_samples_to_itself_anywhere(void **state)
-{
-    const double strange[] = {0.0, -0.3, 5.7, 1e300, -1e300, NAN, INFINITY};
-    otx_run *run = test_run_create();
-    otx_image image;
-
-    (void)state;
-    assert_int_equal(
-        otx_image_create(run, run->arena, 5, 3, 1, &image), OSDTEX_OK);
-    for (int i = 0; i < 15; ++i)
-        image.pixels[i] = 0.1f;
-    for (size_t i = 0; i < 7; ++i)
-        for (int wrap = 0; wrap < 2; ++wrap)
-        {
-            float color;
-
-            otx_image_sample(
-                &image, wrap, wrap, (otx_vec2){strange[i], strange[6 - i]},
-                &color);
-            assert_float_equal(color, 0.1f, 0.0);
-        }
-    test_run_destroy(run);
-}
-
-static void
 test_halves_are_means(void **state)
 {
     otx_run *run = test_run_create();
@@ -195,11 +101,6 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_limits_are_kept),
         cmocka_unit_test(test_memory_limit_is_an_error),
-        cmocka_unit_test(test_centres_sample_exactly),
-        cmocka_unit_test(test_wrapped_sampling_is_periodic),
-        cmocka_unit_test(test_wrapped_seam_mixes_both_ends),
-        cmocka_unit_test(test_clamped_sampling_stays_on_the_rim),
-        cmocka_unit_test(test_constant_samples_to_itself_anywhere),
         cmocka_unit_test(test_halves_are_means),
         cmocka_unit_test(test_halving_ends_at_one_texel),
     };

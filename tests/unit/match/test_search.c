@@ -74,8 +74,8 @@ direct_error(const pixels *p, int32_t dx, int32_t dy)
     for (int32_t n = 0; n < p->count; ++n)
     {
         const float *t = otx_plane_at(
-            p->plane, otx_plane_wrap_index(p->x[n] + dx, p->plane->width, true),
-            otx_plane_wrap_index(p->y[n] + dy, p->plane->height, true));
+            p->plane, otx_view_fold(p->x[n] + dx, p->plane->width, true),
+            otx_view_fold(p->y[n] + dy, p->plane->height, true));
 
         for (int k = 0; k < 3; ++k)
             sum += (double)(p->color[n][k] - t[k]) *

@@ -3,6 +3,7 @@
 #include "grid.h"
 #include "unit/flatten/charts.h"
 
+#include "image/view.h"
 #include "relax/nudge.h"
 
 enum
@@ -139,8 +140,8 @@ gap_error(const scene *s)
             own.x + DENSITY - DENSITY * p.x, own.y + y - DENSITY * p.y};
         float a[3], b[3];
 
-        otx_image_sample(&s->exemplar->match, true, true, there, a);
-        otx_image_sample(&s->exemplar->match, true, true, here, b);
+        otx_view_value(otx_view_of(&s->exemplar->match, true, true), there, a);
+        otx_view_value(otx_view_of(&s->exemplar->match, true, true), here, b);
         for (int c = 0; c < 3; ++c)
             sum += ((double)a[c] - b[c]) * ((double)a[c] - b[c]);
     }
