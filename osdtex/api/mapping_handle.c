@@ -4,8 +4,8 @@
 #include "api/map_input.h"
 #include "api/method_settings.h"
 #include "api/several.h"
-#include "base/near.h"
 #include "export/model.h"
+#include "word/near.h"
 
 #include <math.h>
 #include <string.h>

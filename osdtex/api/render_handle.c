@@ -4,9 +4,9 @@
 #include "api/field_view.h"
 #include "api/handle.h"
 #include "api/image_handle.h"
-#include "base/near.h"
 #include "render/render.h"
 #include "render/worst_seam.h"
+#include "word/near.h"
 
 static const char *
 show_name(const void *list, int32_t index)

@@ -1,7 +1,7 @@
 /* command.c -- the table of sub-commands. */
 #include "cli/command.h"
 #include "cli/session.h"
-#include "cli/suggest.h"
+#include "word/near.h"
 
 #include <string.h>
 
@@ -251,7 +251,7 @@ name_of(const void *list, int index)
 int
 otx_command_refuse(const char *name)
 {
-    const char *near_name = otx_suggest_name(name, name_of, NULL);
+    const char *near_name = otx_near_best(name, name_of, NULL);
 
     if (near_name)
         return otx_session_refuse(

@@ -1,6 +1,7 @@
 /* flag.c -- the table of flags, and getopt_long over it. */
 #include "cli/flag.h"
-#include "cli/suggest.h"
+
+#include "word/near.h"
 
 #include <getopt.h>
 #include <stdio.h>
@@ -359,7 +360,7 @@ complain(const char *word, const otx_flag_id *ids)
         return false;
     }
     snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
-    near_name = otx_suggest_name(name, name_of, ids);
+    near_name = otx_near_best(name, name_of, ids);
     if (near_name && strcmp(near_name, name) == 0)
         fprintf(stderr, "osdtex: error: '--%s' takes no value\n", name);
     else if (is_flag(name))

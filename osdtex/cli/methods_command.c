@@ -1,6 +1,7 @@
 /* methods_command.c -- osdtex methods. */
 #include "cli/session.h"
-#include "cli/suggest.h"
+
+#include "word/near.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -63,7 +64,7 @@ otx_methods_command_run(const otx_flag_values *values)
     }
     if (!wanted)
         return OTX_EXIT_OK;
-    near_name = otx_suggest_name(wanted, method_name, NULL);
+    near_name = otx_near_best(wanted, method_name, NULL);
     if (near_name)
         return otx_session_refuse(
             "there is no method '%s'; did you mean '%s'?", wanted, near_name);

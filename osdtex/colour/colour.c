@@ -2,7 +2,7 @@
  * converting pictures with it. */
 #include "colour/colour.h"
 
-#include "base/near.h"
+#include "word/near.h"
 
 #include <stdio.h>
 

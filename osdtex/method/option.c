@@ -3,8 +3,8 @@
  * Numbers are read and written by charconv, so that a host that has called
  * setlocale changes nothing. */
 #include "method/option.h"
-#include "base/near.h"
 #include "bridge/charconv.h"
+#include "word/near.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* test_near.c -- what counts as a slip of the finger. */
 #include "support.h"
 
-#include "base/near.h"
+#include "word/near.h"
 
 static const char *const names[] = {"catmark", "loop", "bilinear", NULL};
 

@@ -1,8 +1,8 @@
 /* near.h -- names that somebody may have meant. */
-#ifndef OTX_BASE_NEAR_H
-#define OTX_BASE_NEAR_H
+#ifndef OTX_WORD_NEAR_H
+#define OTX_WORD_NEAR_H
 
-#include "base/status.h"
+#include <stdint.h>
 
 /* Name `index` of a list; NULL behind its end. */
 typedef const char *(*otx_near_name)(const void *list, int32_t index);
@@ -15,5 +15,10 @@ int32_t otx_near_distance(const char *a, const char *b);
  * "; did you mean 'a' or 'b'?", or "" when none does: the end of a sentence. */
 void otx_near_text(
     const char *name, otx_near_name get, const void *list, char text[256]);
+
+/* The one name of a list that resembles `name` most, or begins with it; NULL
+ * when none does. */
+const char *
+otx_near_best(const char *name, otx_near_name get, const void *list);
 
 #endif

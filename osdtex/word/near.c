@@ -1,6 +1,7 @@
 /* near.c -- optimal string alignment distance [Damerau64]. */
-#include "base/near.h"
+#include "word/near.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -109,4 +110,27 @@ otx_near_text(
             text + length, 256 - length, "%s'%.60s'%s",
             i == 0 ? "; did you mean " : (i + 1 == count ? " or " : ", "),
             best[i], i + 1 == count ? "?" : "");
+}
+
+const char *
+otx_near_best(const char *name, otx_near_name get, const void *list)
+{
+    const size_t length = strlen(name);
+    /* Two slips in a word of three letters, one more for each four. */
+    int32_t nearest = (length > 2 ? 3 : 2) + (int32_t)length / 4;
+    const char *best = NULL;
+
+    for (int32_t i = 0; get(list, i); ++i)
+    {
+        const char *candidate = get(list, i);
+        const bool begins = length >= 2 && is_prefix(name, candidate);
+        const int32_t distance =
+            begins ? 1 : otx_near_distance(name, candidate);
+
+        if (!begins && distance >= nearest)
+            continue;
+        nearest = distance;
+        best = candidate;
+    }
+    return best;
 }
