@@ -101,17 +101,17 @@ test_exemplar_create(
     return exemplar;
 }
 
-/* One patch that lays the grid flat: UV = points * density + shift texels. */
+/* One patch that lays the grid flat: UV = points * texels + shift texels. */
 static inline otx_mapping *
 test_mapping_create(
     otx_arena *arena, const otx_surface *surface, const otx_exemplar *exemplar,
-    double density, double shift)
+    double texels, double shift)
 {
     const otx_level *leaf = otx_surface_leaf(surface);
     otx_mapping *mapping = OTX_ZNEW(arena, otx_mapping, 1);
 
     mapping->surface = surface;
-    mapping->scale = exemplar->match.width / density;
+    mapping->scale = exemplar->match.width / texels;
     mapping->uvs = OTX_NEW(arena, float, 2 * leaf->corner_count);
     mapping->face_patch = OTX_ZNEW(arena, int32_t, leaf->face_count);
     mapping->patch_count = 1;
@@ -120,9 +120,9 @@ test_mapping_create(
         const otx_vec3 p = otx_vec3_load(surface->points, leaf->face_verts[c]);
 
         mapping->uvs[2 * c] =
-            (float)((density * p.x + shift) / exemplar->match.width);
+            (float)((texels * p.x + shift) / exemplar->match.width);
         mapping->uvs[2 * c + 1] =
-            (float)((density * p.y + shift) / exemplar->match.height);
+            (float)((texels * p.y + shift) / exemplar->match.height);
     }
     return mapping;
 }

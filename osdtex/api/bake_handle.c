@@ -12,7 +12,7 @@ layout_options(const osdtex_bake_options *ours)
         .source = (otx_layout_source)ours->uvs,
         .side = ours->resolution,
         .margin = ours->margin,
-        .density = ours->texels_per_unit,
+        .texels_per_unit = ours->texels_per_unit,
     };
 }
 

@@ -333,7 +333,7 @@ put_distortion(json_t *root, const otx_measure *measure)
     set_real(e, "coverage", measure->coverage);
     set_real(e, "lab_sigma", measure->lab_sigma);
     set_real(e, "lab_step", measure->lab_step);
-    set_real(e, "texels_per_unit", measure->density);
+    set_real(e, "texels_per_unit", measure->texels_per_unit);
     set_real(e, "area_texels", measure->area);
 }
 

@@ -77,14 +77,16 @@ place(packing *p)
 }
 
 static int32_t
-pack(packing *p, double density, int32_t margin)
+pack(packing *p, double texels_per_unit, int32_t margin)
 {
     for (size_t i = 0; i < 2 * (size_t)p->face_count; ++i)
-        p->cells[i] = cell_side(density * p->extents[i], margin, p->side);
+        p->cells[i] =
+            cell_side(texels_per_unit * p->extents[i], margin, p->side);
     return place(p);
 }
 
-/* The largest density at which all cells fit one tile; 0 when none does. */
+/* The most texels to a scene unit with which all cells fit one tile; 0 when
+ * there are none. */
 static double
 fit(packing *p, int32_t margin)
 {
@@ -125,7 +127,7 @@ share_of_blocks(const packing *p, int32_t margin)
     return blocks / cells;
 }
 
-/* Settles density and margin, and leaves the packing as it then is. */
+/* Settles texels to a unit and margin, and leaves the packing as it then is. */
 static void
 settle(packing *p, const otx_atlas_options *options, otx_atlas *out)
 {
@@ -135,12 +137,14 @@ settle(packing *p, const otx_atlas_options *options, otx_atlas *out)
     for (;;)
     {
         out->margin = margin;
-        out->density =
-            options->density > 0.0 ? options->density : fit(p, margin);
-        out->tile_count = pack(p, out->density, margin);
+        out->texels_per_unit = options->texels_per_unit > 0.0
+                                   ? options->texels_per_unit
+                                   : fit(p, margin);
+        out->tile_count = pack(p, out->texels_per_unit, margin);
         if (!free || margin == OTX_ATLAS_MARGIN_MIN ||
             (out->tile_count == 1 && share_of_blocks(p, margin) >= 0.5) ||
-            (options->density > 0.0 && share_of_blocks(p, margin) >= 0.5))
+            (options->texels_per_unit > 0.0 &&
+             share_of_blocks(p, margin) >= 0.5))
             return;
         margin /= 2;
     }
@@ -246,19 +250,20 @@ check_tiles(otx_run *run, const otx_atlas *atlas)
     return OSDTEX_OK;
 }
 
-/* Without a density only blocks of the least size fill more than one tile. */
+/* Without texels to a unit only blocks of the least size fill more than one
+ * tile. */
 static void
 tell(
     otx_run *run, const otx_cage *cage, const otx_atlas_options *options,
     const otx_atlas *atlas)
 {
-    if (atlas->density > 0.0)
+    if (atlas->texels_per_unit > 0.0)
         otx_note(
             run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
             "an atlas of %d tile%s, %.4g texels per scene unit, margins of %d "
             "texels",
             atlas->tile_count, atlas->tile_count == 1 ? "" : "s",
-            atlas->density, atlas->margin);
+            atlas->texels_per_unit, atlas->margin);
     else
         otx_note(
             run, OSDTEX_SEVERITY_WARNING, STAGE, OTX_NOWHERE,

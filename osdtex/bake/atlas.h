@@ -21,14 +21,15 @@ typedef struct otx_atlas_options
     int32_t side;   /* texels of a tile */
     int32_t margin; /* texels around a block, a power of two; 0: the largest
                      * up to 16 that costs no more than half of the texture */
-    double density; /* texels per scene unit, 0: what fills one tile */
+    double texels_per_unit; /* texels per scene unit, 0: what fills one tile */
 } otx_atlas_options;
 
 typedef struct otx_atlas
 {
     float *uvs; /* [cage corner_count * 2] */
     int32_t margin;
-    double density; /* as asked or found; blocks are rounded up from there */
+    double texels_per_unit; /* as asked or found; blocks are rounded up from
+                               there */
     int32_t tile_count;
 } otx_atlas;
 

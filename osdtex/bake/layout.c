@@ -49,7 +49,7 @@ make_atlas(otx_run *run, const otx_layout_options *options, otx_layout *out)
     const int32_t cage_corners = surface->cage->corner_count;
     const int32_t corners = otx_surface_leaf(surface)->corner_count;
     const otx_atlas_options how = {
-        options->side, options->margin, options->density};
+        options->side, options->margin, options->texels_per_unit};
     float *leaf_uvs = OTX_NEW(run->arena, float, 2 * (size_t)corners);
     int32_t *face_uvs = OTX_NEW(run->arena, int32_t, cage_corners);
     otx_atlas atlas;
@@ -468,7 +468,8 @@ otx_layout_build(
     *out = (otx_layout){.surface = mapping->surface, .side = options->side};
     if (options->side < 1 || options->side > 32768 || options->margin < 0 ||
         options->margin > OTX_ATLAS_MARGIN_MAX ||
-        !(options->density >= 0.0 && isfinite(options->density)))
+        !(options->texels_per_unit >= 0.0 &&
+          isfinite(options->texels_per_unit)))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "a texture has 1 to 32768 texels a side, margins of 0 to %d, and "

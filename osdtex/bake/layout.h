@@ -19,9 +19,9 @@ typedef enum otx_layout_source
 typedef struct otx_layout_options
 {
     otx_layout_source source;
-    int32_t side;   /* texels of a tile, up to OTX_IMAGE_MAX_SIDE */
-    int32_t margin; /* see atlas.h; 0 chooses */
-    double density; /* texels per scene unit; see atlas.h */
+    int32_t side;           /* texels of a tile, up to OTX_IMAGE_MAX_SIDE */
+    int32_t margin;         /* see atlas.h; 0 chooses */
+    double texels_per_unit; /* texels per scene unit; see atlas.h */
 } otx_layout_options;
 
 typedef struct otx_layout

@@ -259,7 +259,7 @@ run_cut(void *context)
     scene *s = context;
     otx_cut_options options = otx_cut_options_default();
 
-    options.density = s->texels;
+    options.texels_per_unit = s->texels;
     memcpy(
         s->cut, s->labels,
         (size_t)s->leaves.level->face_count * sizeof *s->cut);

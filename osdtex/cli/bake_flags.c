@@ -28,7 +28,7 @@ parse_numbers(const otx_flag_values *values, osdtex_bake_options *out)
 {
     const char *side = values->text[OTX_FLAG_RESOLUTION];
     const char *margin = values->text[OTX_FLAG_MARGIN];
-    const char *density = values->text[OTX_FLAG_TEXELS_PER_UNIT];
+    const char *text = values->text[OTX_FLAG_TEXELS_PER_UNIT];
     const char *blend = values->text[OTX_FLAG_SEAM_BLEND];
     const char *udim = values->text[OTX_FLAG_UDIM];
     int64_t number;
@@ -59,11 +59,11 @@ parse_numbers(const otx_flag_values *values, osdtex_bake_options *out)
     }
     if (margin)
         out->margin = (int32_t)number;
-    if (density && (!otx_value_real(density, &out->texels_per_unit) ||
-                    !(out->texels_per_unit > 0.0)))
+    if (text && (!otx_value_real(text, &out->texels_per_unit) ||
+                 !(out->texels_per_unit > 0.0)))
     {
         otx_session_refuse(
-            "--texels-per-unit takes a positive number, not '%s'", density);
+            "--texels-per-unit takes a positive number, not '%s'", text);
         return false;
     }
     if (blend &&

@@ -35,7 +35,7 @@ typedef struct survey
     const otx_exemplar *exemplars;
     int32_t exemplar_count;
     const otx_level *leaf;
-    double density;
+    double texels_per_unit;
     otx_series l2, ratio, log_area;
     otx_coverage uses[OTX_EXEMPLARS_MAX];
     laid_face face; /* the one at hand */
@@ -112,7 +112,7 @@ lay_face(const survey *s, int32_t face, laid_face *out)
                        (otx_vec2){otx_vec3_dot(d, e1), otx_vec3_dot(d, e2)})
                  : (otx_vec2){0.0, 0.0};
         out->q[k] = otx_vec2_scale(
-            1.0 / s->density,
+            1.0 / s->texels_per_unit,
             otx_seam_texel(s->mapping, &s->exemplars[s->source], first + k));
     }
 }
@@ -196,9 +196,9 @@ use_face(survey *s, const laid_face *face)
     {
         const otx_vec2 p[3] = {face->p[0], face->p[k], face->p[k + 1]};
         const otx_vec2 q[3] = {
-            otx_vec2_scale(s->density, face->q[0]),
-            otx_vec2_scale(s->density, face->q[k]),
-            otx_vec2_scale(s->density, face->q[k + 1])};
+            otx_vec2_scale(s->texels_per_unit, face->q[0]),
+            otx_vec2_scale(s->texels_per_unit, face->q[k]),
+            otx_vec2_scale(s->texels_per_unit, face->q[k + 1])};
 
         otx_coverage_add(&s->uses[s->source], q, fabs(polygon_area(p, 3)));
     }
@@ -213,7 +213,7 @@ overhang(const survey *s, const laid_face *face)
 
     for (int32_t k = 0; k < face->size; ++k)
     {
-        const otx_vec2 t = otx_vec2_scale(s->density, face->q[k]);
+        const otx_vec2 t = otx_vec2_scale(s->texels_per_unit, face->q[k]);
 
         if (!exemplar->wrap_x)
             most = fmax(most, fmax(-t.x, t.x - exemplar->match.width));
@@ -239,8 +239,9 @@ survey_face(survey *s, int32_t index, otx_measure *out)
         !(uv_area > 0.0) &&
         !otx_limit_face_is_flat(s->leaf, s->mapping->surface->points, index);
 
-    out->area += area * s->density * s->density;
-    out->shares[s->source].area += area * s->density * s->density;
+    out->area += area * s->texels_per_unit * s->texels_per_unit;
+    out->shares[s->source].area +=
+        area * s->texels_per_unit * s->texels_per_unit;
     ++out->shares[s->source].faces;
     out->flips += flipped;
     out->folds += uv_area > 0.0 && has_fold(face);
@@ -457,11 +458,11 @@ otx_measure_run(
         .exemplars = exemplars,
         .exemplar_count = otx_source_count(mapping),
         .leaf = otx_surface_leaf(mapping->surface),
-        .density = otx_seam_density(mapping, exemplars),
+        .texels_per_unit = otx_seam_texels_per_unit(mapping, exemplars),
     };
 
     *out = (otx_measure){
-        .density = s.density,
+        .texels_per_unit = s.texels_per_unit,
         .lab_sigma = exemplars->lab_sigma,
         .lab_step = exemplars->lab_step,
     };

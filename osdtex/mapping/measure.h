@@ -2,8 +2,8 @@
  *
  * Seams are measured in CIELAB (Delta E 1976) whatever space the method
  * matched in; lengths and areas are in texels on the surface, i.e. scene units
- * times otx_seam_density. No figure is enough alone: what each is blind to is
- * said in docs/notes/measure.md. */
+ * times otx_seam_texels_per_unit. No figure is enough alone: what each is blind
+ * to is said in docs/notes/measure.md. */
 #ifndef OTX_MAPPING_MEASURE_H
 #define OTX_MAPPING_MEASURE_H
 
@@ -33,16 +33,16 @@ typedef struct otx_measure_share
 
 typedef struct otx_measure
 {
-    double density;     /* texels per scene unit */
-    double area;        /* covered surface, square texels */
-    double lab_sigma;   /* of the exemplar: random texels, ... */
-    double lab_step;    /* ... adjacent texels */
-    int32_t patches;    /* labels in use */
-    int32_t uncovered;  /* faces without a patch or with bad UVs */
-    int32_t flips;      /* faces with area whose UV area is not positive */
-    int32_t folds;      /* others with a reversed corner (quads) */
-    int32_t outside;    /* faces that leave a picture that ends */
-    double outside_max; /* texels beyond the border, 0 none */
+    double texels_per_unit; /* texels per scene unit */
+    double area;            /* covered surface, square texels */
+    double lab_sigma;       /* of the exemplar: random texels, ... */
+    double lab_step;        /* ... adjacent texels */
+    int32_t patches;        /* labels in use */
+    int32_t uncovered;      /* faces without a patch or with bad UVs */
+    int32_t flips;          /* faces with area whose UV area is not positive */
+    int32_t folds;          /* others with a reversed corner (quads) */
+    int32_t outside;        /* faces that leave a picture that ends */
+    double outside_max;     /* texels beyond the border, 0 none */
 
     double seam_energy; /* S: sum of length * mean Delta E / area */
     double seam_rms;    /* Delta E over all seam samples */

@@ -8,7 +8,8 @@
 #include "seam/unit.h"
 
 double
-otx_seam_density(const otx_mapping *mapping, const otx_exemplar *exemplars)
+otx_seam_texels_per_unit(
+    const otx_mapping *mapping, const otx_exemplar *exemplars)
 {
     return otx_unit_texels(exemplars, mapping->scale);
 }
@@ -46,7 +47,7 @@ typedef struct search
     const otx_exemplar *exemplars;
     const otx_level *leaf;
     const uint8_t *covered; /* [face_count] */
-    double density;
+    double texels_per_unit;
     int32_t *edges;
     uint8_t *transition;
     double *lengths;
@@ -89,7 +90,7 @@ find_seams(otx_run *run, search *s, otx_seam_list *out)
             continue;
 
         const double length =
-            s->density * otx_seam_edge_length(s->mapping->surface, e);
+            s->texels_per_unit * otx_seam_edge_length(s->mapping->surface, e);
 
         out->interior_length += length;
         edge_sides(s, e, sides, from);
@@ -180,7 +181,7 @@ otx_seam_collect(
         .mapping = mapping,
         .exemplars = exemplars,
         .leaf = otx_surface_leaf(mapping->surface),
-        .density = otx_seam_density(mapping, exemplars),
+        .texels_per_unit = otx_seam_texels_per_unit(mapping, exemplars),
     };
 
     *out = (otx_seam_list){0};

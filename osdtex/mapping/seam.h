@@ -27,8 +27,8 @@ typedef struct otx_seam_list
 } otx_seam_list;
 
 /* Texels per scene unit that the mapping asks for. */
-double
-otx_seam_density(const otx_mapping *mapping, const otx_exemplar *exemplars);
+double otx_seam_texels_per_unit(
+    const otx_mapping *mapping, const otx_exemplar *exemplars);
 
 /* Whether a leaf face has a patch and finite UVs, and is not a hole. */
 bool otx_seam_covered(const otx_mapping *mapping, int32_t face);

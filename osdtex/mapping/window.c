@@ -60,7 +60,7 @@ typedef struct lookup
     const otx_mapping *mapping;
     const otx_exemplar *exemplars;
     const otx_level *leaf;
-    double density;
+    double texels_per_unit;
     otx_image coarse[OTX_EXEMPLARS_MAX]; /* a quarter of each one's Lab, PAD
                                           * texels of its continuation around */
     const uint8_t *seam_edge;            /* [edge_count] */
@@ -100,7 +100,7 @@ unfold(const lookup *l, const hinge *h, int32_t size, otx_vec2 *out)
     const otx_vec2 along = otx_vec2_sub(h->ends[1], h->ends[0]);
     const double length = otx_vec2_length(along);
     const otx_vec2 turn =
-        otx_vec2_scale(length > 0.0 ? l->density / length : 0.0, along);
+        otx_vec2_scale(length > 0.0 ? l->texels_per_unit / length : 0.0, along);
 
     for (int32_t k = 0; k < size; ++k)
     {
@@ -244,8 +244,8 @@ static bool
 cut_window(const lookup *l, int32_t edge, window *w)
 {
     const int32_t *faces = l->leaf->edge_faces + 2 * (size_t)edge;
-    const double half =
-        0.5 * l->density * otx_seam_edge_length(l->mapping->surface, edge);
+    const double half = 0.5 * l->texels_per_unit *
+                        otx_seam_edge_length(l->mapping->surface, edge);
 
     memset(w, 0, offsetof(window, hinges));
     w->source = otx_source_of(l->mapping, faces[0]);
@@ -592,7 +592,7 @@ otx_window_measure(
         .mapping = mapping,
         .exemplars = exemplars,
         .leaf = otx_surface_leaf(mapping->surface),
-        .density = otx_seam_density(mapping, exemplars),
+        .texels_per_unit = otx_seam_texels_per_unit(mapping, exemplars),
     };
 
     *out = (otx_window_figures){0};

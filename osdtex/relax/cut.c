@@ -562,10 +562,11 @@ otx_cut_run(
     const otx_offer *offers, int32_t offer_count,
     const otx_cut_options *options, int32_t *face_patch, otx_cut_stats *out)
 {
-    if (!(options->density > 0.0) || !isfinite(options->density))
+    if (!(options->texels_per_unit > 0.0) ||
+        !isfinite(options->texels_per_unit))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, stage, OTX_NOWHERE,
-            "the density must be a positive number of texels per scene unit");
+            "texels per scene unit must be a positive number");
 
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     otx_cut_stats stats = {0};

@@ -31,15 +31,15 @@ typedef struct otx_offer
 
 typedef struct otx_cut_options
 {
-    double density;    /* texels per scene unit, > 0: required */
-    int32_t sweeps;    /* over all patches, at most; stops when settled */
-    bool lab;          /* compare in Lab instead of match space */
-    double band;       /* texels beside the edge that are compared too,
-                        * so that structure counts; 0: the edge alone */
-    double distortion; /* weight of `cost`, per texel: a face of area A
-                        * costs distortion * A * cost */
-    double length;     /* cost of any seam per texel, in units of the
-                        * exemplar's sigma: breaks ties */
+    double texels_per_unit; /* texels per scene unit, > 0: required */
+    int32_t sweeps;         /* over all patches, at most; stops when settled */
+    bool lab;               /* compare in Lab instead of match space */
+    double band;            /* texels beside the edge that are compared too,
+                             * so that structure counts; 0: the edge alone */
+    double distortion;      /* weight of `cost`, per texel: a face of area A
+                             * costs distortion * A * cost */
+    double length;          /* cost of any seam per texel, in units of the
+                             * exemplar's sigma: breaks ties */
     /* Between two exemplars: cost of cutting through features per texel, in
      * units of each one's sigma, and where these are (outline.h), [exemplars];
      * NULL nowhere. */
@@ -51,7 +51,7 @@ static inline otx_cut_options
 otx_cut_options_default(void)
 {
     return (otx_cut_options){
-        .density = 0.0,
+        .texels_per_unit = 0.0,
         .sweeps = 3,
         .lab = false,
         .band = 1.0,

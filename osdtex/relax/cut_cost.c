@@ -156,8 +156,8 @@ otx_cut_cost_edge(
         otx_seam_continuous(sides[0].exemplar, sides[0].ends, sides[1].ends))
         return 0;
 
-    const double length =
-        cost->options->density * otx_seam_edge_length(cost->surface, edge);
+    const double length = cost->options->texels_per_unit *
+                          otx_seam_edge_length(cost->surface, edge);
     const int32_t wanted = otx_seam_sample_count(length);
     const int32_t count = wanted < SAMPLES_MAX ? wanted : SAMPLES_MAX;
     double per_texel = band_difference(cost, sides, count) + cost->edge_length;
@@ -209,11 +209,11 @@ otx_cut_cost_face(const otx_cut_cost *cost, int32_t face, otx_cut_view view)
         return uncovered_cost;
 
     const float *costs = cost->offers[view.label].cost;
-    const double density = cost->options->density;
+    const double texels_per_unit = cost->options->texels_per_unit;
 
     if (!costs)
         return 0;
     return whole(
-        cost, cost->options->distortion * density * density *
+        cost, cost->options->distortion * texels_per_unit * texels_per_unit *
                   face_area(cost, face) * costs[view.slot]);
 }

@@ -11,7 +11,7 @@
 static double
 seam_energy(const otx_elastic *e, const otx_sheet_seam *seam)
 {
-    const int32_t n = otx_elastic_samples(seam);
+    const int32_t n = otx_seam_sample_count(seam->length);
     const otx_elastic_flanks by = otx_elastic_flanks_of(e, seam);
 
     return otx_difference_sum(&by.a, &by.b, n) * by.weight * seam->length / n;

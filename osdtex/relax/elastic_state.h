@@ -9,6 +9,7 @@
 #include "relax/elastic.h"
 #include "relax/sheet.h"
 #include "seam/difference.h"
+#include "seam/edge.h"
 
 enum
 {
@@ -88,15 +89,6 @@ otx_elastic_variables(const otx_sheet_seam *seam, int32_t v[4])
     v[1] = seam->a[1];
     v[2] = seam->b[0];
     v[3] = seam->b[1];
-}
-
-/* Samples along a seam: one a texel, at least two. */
-static inline int32_t
-otx_elastic_samples(const otx_sheet_seam *seam)
-{
-    const int32_t n = (int32_t)ceil(seam->length);
-
-    return n < 2 ? 2 : n;
 }
 
 /* What the two sides of a seam show. */

@@ -65,7 +65,7 @@ add_row(seam_block *block, const double row[8], double residual, double weight)
 static void
 add_samples(const otx_elastic *e, const otx_sheet_seam *seam, seam_block *block)
 {
-    const int32_t n = otx_elastic_samples(seam);
+    const int32_t n = otx_seam_sample_count(seam->length);
     const otx_elastic_flanks by = otx_elastic_flanks_of(e, seam);
     const double weight = by.weight * seam->length / n;
 

@@ -28,7 +28,7 @@ typedef struct border
     int32_t a, b;   /* chart vertices */
     int32_t first;  /* sample */
     int32_t count;  /* samples, evenly along it */
-    double density; /* texels of length per sample */
+    double spacing; /* texels of length per sample */
 } border;
 
 typedef struct nudge
@@ -122,7 +122,7 @@ add_border(nudge *n, int32_t i, int32_t k, int32_t other, int32_t *samples)
     b->b = chart->corners[first + (k + 1) % size];
     b->first = *samples;
     b->count = sample_count(n, edge, &length);
-    b->density = length / b->count;
+    b->spacing = length / b->count;
     *samples += b->count;
     n->on_edge[b->a] = n->on_edge[b->b] = 1;
     far_side(n, edge, other, far);
@@ -200,7 +200,7 @@ border_energy(const nudge *n, const border *b, otx_vec2 delta, bool hat)
             square *= (1.0 - t) * n->hat[b->a] + t * n->hat[b->b];
         sum += square;
     }
-    return sum * b->density;
+    return sum * b->spacing;
 }
 
 static double
@@ -214,7 +214,7 @@ remaining_error(const nudge *n)
         const border *b = &n->borders[i];
 
         sum += border_energy(n, b, (otx_vec2){0, 0}, false);
-        length += b->density * b->count;
+        length += b->spacing * b->count;
     }
     return length > 0.0 && sigma > 0.0 ? sqrt(sum / length) / sigma : 0.0;
 }

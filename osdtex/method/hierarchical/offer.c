@@ -176,7 +176,7 @@ otx_offers_cut(otx_mapper *m, otx_cut_stats *stats)
     const otx_arena_mark mark = otx_arena_here(m->run->scratch);
     otx_cut_options options = otx_cut_options_default();
 
-    options.density = m->texels;
+    options.texels_per_unit = m->texels;
     options.sweeps = m->settings.sweeps;
     OTX_TRY(find_outlines(m, &options.outlines));
     OTX_TRY(otx_cut_run(

@@ -43,7 +43,7 @@ one_flat_chart_is_perfect(void **state)
     const otx_measure m = measured(&s);
 
     (void)state;
-    assert_float_equal(m.density, 32.0, 1e-9);
+    assert_float_equal(m.texels_per_unit, 32.0, 1e-9);
     assert_float_equal(m.area, 64.0 * 64.0, 1e-3);
     assert_true(m.seam_energy == 0.0 && m.seam_rms == 0.0);
     assert_true(m.seam_length == 0.0 && m.seams_per_100 == 0.0);

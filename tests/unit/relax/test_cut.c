@@ -49,7 +49,7 @@ unit_options(void)
 {
     otx_cut_options options = otx_cut_options_default();
 
-    options.density = DENSITY;
+    options.texels_per_unit = DENSITY;
     return options;
 }
 
@@ -493,7 +493,7 @@ bad_input_is_refused_and_labels_stay(void **state)
     assert_int_equal(
         otx_cut_run(run, surface, exemplar, &offer, 1, &options, labels, NULL),
         OSDTEX_ERROR_ARGUMENT);
-    options.density = 0.0;
+    options.texels_per_unit = 0.0;
     assert_int_equal(
         otx_cut_run(run, surface, exemplar, &offer, 1, &options, labels, NULL),
         OSDTEX_ERROR_ARGUMENT);

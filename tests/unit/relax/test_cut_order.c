@@ -130,7 +130,7 @@ what_is_remembered_is_the_cost(void **state)
 
     (void)state;
     make_offers(run->arena, 5, s);
-    options.density = 8.0;
+    options.texels_per_unit = 8.0;
     cost = otx_cut_cost_create(surface, exemplar, s->offers, &options);
     assert_int_equal(
         otx_cut_memo_create(run->arena, &cost, PATCHES, &memo), OSDTEX_OK);
