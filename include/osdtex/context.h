@@ -30,6 +30,10 @@ typedef struct osdtex_diagnostic
     osdtex_index vertex;  /* 0-based, -1 none */
     int64_t count;        /* 1 or more */
     const char *message;  /* one sentence */
+    /* The same with a unit separator (U+001F) before and after each name of an
+     * option, for programs that call options by other names: osdtex shows
+     * `raise level` as `raise --level`. */
+    const char *marked;
 } osdtex_diagnostic;
 
 typedef struct osdtex_context_options

@@ -131,6 +131,7 @@ osdtex_context_error(const osdtex_context *context)
         .vertex = -1,
         .count = 1,
         .message = "no context is given",
+        .marked = "no context is given",
     };
 
     return context ? otx_diagnostics_error(context->diagnostics) : &no_context;

@@ -52,7 +52,7 @@ refuse(
     list_names(exemplars, count, known, sizeof known);
     return otx_fail(
         run, OSDTEX_ERROR_ARGUMENT, STAGE, otx_where_file(set->path),
-        "constraint %d asks for exemplar %.80s, which is not one of %s; --also "
+        "constraint %d asks for exemplar %.80s, which is not one of %s; {also} "
         "gives more, and a number tells apart what has one name",
         (int)index + 1, wanted, known);
 }

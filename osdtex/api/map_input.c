@@ -217,7 +217,7 @@ otx_map_input_analysis(
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
             "no lattice was found in the exemplar; say what it is with "
-            "--generators X,Y,X,Y, in texels");
+            "{generators} X,Y,X,Y, in texels");
     if (kind == OTX_ANALYSIS_ISOTROPIC)
         a->symmetry = 0;
     else if (a->symmetry == 0)

@@ -39,7 +39,7 @@ check_spaces(
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, where,
             "the exemplars are written in two spaces, '%.80s' and '%.80s'; "
-            "give the one that both are to be in with --to",
+            "give the one that both are to be in with {to}",
             a->linear_space, b->linear_space);
     if (strcmp(a->match_space, b->match_space) != 0 ||
         a->embedding != b->embedding)
@@ -71,7 +71,7 @@ check(
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "a mask divides the surface between exemplars, and one is given; "
-            "give the others with --also");
+            "give the others with {also}");
     for (int32_t k = 0; k < options->also_count; ++k)
     {
         const osdtex_also *also = &options->also[k];
@@ -194,14 +194,14 @@ check_demand(
             return otx_fail(
                 run, OSDTEX_ERROR_ARGUMENT, STAGE, where,
                 "nothing says where exemplar %d goes; name a material of the "
-                "cage (--also MATERIAL=FILE), or give a --mask or constraints "
+                "cage ({also} MATERIAL=FILE), or give a {mask} or constraints "
                 "that name exemplars",
                 (int)k + 1);
         if (!is_asked_for(handle, demand, k))
             otx_note(
                 run, OSDTEX_SEVERITY_WARNING, STAGE, where,
                 "no face shows exemplar %d (%.200s): what asks for it may be "
-                "smaller than a face; raise --level",
+                "smaller than a face; raise {level}",
                 (int)k + 1, name_of(handle->sources[k]));
     }
     return OSDTEX_OK;

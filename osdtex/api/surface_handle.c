@@ -30,7 +30,7 @@ note_level(otx_run *run, const osdtex_cage *cage, double wanted, int32_t level)
         otx_note(
             run, OSDTEX_SEVERITY_WARNING, "surface", OTX_NOWHERE,
             "the edges of this plain mesh come to %.3g, where %.3g would suit "
-            "the exemplar, and seams can only run along them; --scheme "
+            "the exemplar, and seams can only run along them; {scheme} "
             "bilinear subdivides it and keeps its shape",
             edge, wanted);
 }

@@ -32,6 +32,7 @@ typedef struct fault
 {
     osdtex_diagnostic public;
     char message[MESSAGE_BYTES];
+    char marked[MESSAGE_BYTES];
     char stage[STAGE_BYTES];
     char file[PATH_BYTES];
 } fault;
@@ -107,14 +108,15 @@ otx_diagnostics_forget_error(otx_diagnostics *d)
 {
     fault *f = &d->fault;
 
-    f->message[0] = f->stage[0] = f->file[0] = '\0';
+    f->message[0] = f->marked[0] = f->stage[0] = f->file[0] = '\0';
     f->public = (osdtex_diagnostic){
         .severity = OSDTEX_SEVERITY_ERROR,
         .stage = f->stage,
         .face = -1,
         .vertex = -1,
         .count = 1,
-        .message = f->message};
+        .message = f->message,
+        .marked = f->marked};
 }
 
 const osdtex_diagnostic *
@@ -125,8 +127,7 @@ otx_diagnostics_error(const otx_diagnostics *d)
 
 /* The first error of a call is its cause; others follow from it. */
 static void
-keep_error(
-    otx_diagnostics *d, const osdtex_diagnostic *said, const char *message)
+keep_error(otx_diagnostics *d, const osdtex_diagnostic *said)
 {
     fault *f = &d->fault;
 
@@ -134,9 +135,11 @@ keep_error(
         f->public.status != OSDTEX_OK)
         return;
     f->public = *said;
-    snprintf(f->message, sizeof f->message, "%s", message);
+    snprintf(f->message, sizeof f->message, "%s", said->message);
+    snprintf(f->marked, sizeof f->marked, "%s", said->marked);
     snprintf(f->stage, sizeof f->stage, "%s", said->stage);
     f->public.message = f->message;
+    f->public.marked = f->marked;
     f->public.stage = f->stage;
     if (!said->file)
         return;
@@ -168,7 +171,7 @@ find_alike(otx_diagnostics *d, const finding *f)
 /* Keeps a finding; dropped without a word when memory is out or the list is
  * full, since the status that follows is what matters then. */
 static void
-keep(otx_diagnostics *d, finding f, const char *message)
+keep(otx_diagnostics *d, finding f)
 {
     finding *alike = find_alike(d, &f);
 
@@ -179,15 +182,40 @@ keep(otx_diagnostics *d, finding f, const char *message)
     }
     if (d->count == MAX_FINDINGS)
         return;
-    f.public.message = otx_arena_strdup(d->arena, message);
+    f.public.message = otx_arena_strdup(d->arena, f.public.message);
+    f.public.marked = otx_arena_strdup(d->arena, f.public.marked);
     f.public.stage = otx_arena_strdup(d->arena, f.public.stage);
     if (f.public.file)
         f.public.file = otx_arena_strdup(d->arena, f.public.file);
-    if (!f.public.message || !f.public.stage)
+    if (!f.public.message || !f.public.marked || !f.public.stage)
         return;
     d->findings[d->count++] = f;
     if (d->listener)
         d->listener(d->listener_user, &d->findings[d->count - 1].public);
+}
+
+/* The characters between which the marked message has names of options. */
+#define MARK '\x1f'
+
+/* Names of options stand in braces in formats, {level} or {%s}: what a program
+ * calls them is its own business. */
+static void
+mark_names(const char *format, char *marked)
+{
+    size_t n = 0;
+
+    for (const char *at = format; *at && n + 1 < MESSAGE_BYTES; ++at)
+        marked[n++] = *at == '{' || *at == '}' ? MARK : *at;
+    marked[n] = '\0';
+}
+
+static void
+remove_marks(const char *marked, char *plain)
+{
+    for (; *marked; ++marked)
+        if (*marked != MARK)
+            *plain++ = *marked;
+    *plain = '\0';
 }
 
 static void
@@ -195,6 +223,8 @@ report(
     otx_run *run, osdtex_severity severity, otx_status status,
     const char *stage, otx_where where, const char *format, va_list arguments)
 {
+    char marked_format[MESSAGE_BYTES];
+    char marked[MESSAGE_BYTES];
     char message[MESSAGE_BYTES];
     const finding f = {
         {.severity = severity,
@@ -204,13 +234,17 @@ report(
          .line = where.line,
          .face = where.face,
          .vertex = where.vertex,
-         .count = 1},
+         .count = 1,
+         .message = message,
+         .marked = marked},
         format};
 
-    vsnprintf(message, sizeof message, format, arguments);
+    mark_names(format, marked_format);
+    vsnprintf(marked, sizeof marked, marked_format, arguments);
+    remove_marks(marked, message);
     pthread_mutex_lock(&run->diagnostics->mutex);
-    keep_error(run->diagnostics, &f.public, message);
-    keep(run->diagnostics, f, message);
+    keep_error(run->diagnostics, &f.public);
+    keep(run->diagnostics, f);
     pthread_mutex_unlock(&run->diagnostics->mutex);
 }
 
@@ -244,7 +278,7 @@ otx_fail_memory(otx_run *run, const char *stage)
 {
     return otx_fail(
         run, OSDTEX_ERROR_MEMORY, stage, OTX_NOWHERE,
-        "memory is out, or --memory-limit is reached; lower --level, or raise "
+        "memory is out, or {memory-limit} is reached; lower {level}, or raise "
         "the limit");
 }
 
@@ -257,13 +291,15 @@ otx_progress(otx_run *run, const char *stage, double fraction)
         .stage = stage,
         .face = -1,
         .vertex = -1,
-        .count = 1};
+        .count = 1,
+        .message = "the progress callback asked to stop",
+        .marked = "the progress callback asked to stop"};
 
     if (!run->progress || run->progress(run->progress_user, stage, fraction))
         return OSDTEX_OK;
     /* Whoever asked to stop needs no finding. */
     pthread_mutex_lock(&run->diagnostics->mutex);
-    keep_error(run->diagnostics, &said, "the progress callback asked to stop");
+    keep_error(run->diagnostics, &said);
     pthread_mutex_unlock(&run->diagnostics->mutex);
     return OSDTEX_ERROR_CANCELLED;
 }

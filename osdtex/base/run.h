@@ -65,9 +65,14 @@ void otx_diagnostics_listen(
     otx_diagnostics *diagnostics,
     void (*fn)(void *user, const osdtex_diagnostic *finding), void *user);
 
+/* The name of an option where it is handed to a sentence as an argument. */
+#define OTX_OPTION_NAME(name) "\x1f" name "\x1f"
+
 /* Reports the error that ends a stage and returns `status`, so that a guard
  * reads `return otx_fail(run, …)`. The message is one sentence that says what
- * to do, without file and line: those are in `where`. */
+ * to do, without file and line: those are in `where`. Options that it speaks of
+ * stand in braces, as `raise {level}`; no sentence knows the flags of a program
+ * (see osdtex_diagnostic.marked). */
 otx_status otx_fail(
     otx_run *run, otx_status status, const char *stage, otx_where where,
     const char *format, ...) OTX_PRINTF(5, 6);

@@ -126,22 +126,31 @@ otx_session_refuse(const char *format, ...)
     return OTX_EXIT_USAGE;
 }
 
-/* Names in a file may hold what a terminal takes for commands. */
+/* `length` characters. Names in a file may hold what a terminal takes for
+ * commands. */
 static void
-put_plain(const char *text)
+put_plain(const char *text, size_t length)
 {
-    for (;;)
-    {
-        size_t plain = 0;
+    for (size_t i = 0; i < length; ++i)
+        fputc(
+            (unsigned char)text[i] >= ' ' && text[i] != 127 ? text[i] : '?',
+            stderr);
+}
 
-        while ((unsigned char)text[plain] >= ' ' && text[plain] != 127)
-            ++plain;
-        fwrite(text, 1, plain, stderr);
-        text += plain;
-        if (*text == '\0')
-            return;
-        fputc('?', stderr);
-        ++text;
+/* A sentence of the library, with its options as flags. */
+static void
+put_sentence(const osdtex_diagnostic *d)
+{
+    const char *at = d->marked;
+
+    for (bool is_option = false; *at; is_option = !is_option)
+    {
+        const size_t length = strcspn(at, "\x1f");
+
+        if (is_option)
+            fputs("--", stderr);
+        put_plain(at, length);
+        at += length + (at[length] != '\0');
     }
 }
 
@@ -151,7 +160,7 @@ put_place(const osdtex_diagnostic *d)
 {
     if (!d->file)
         return;
-    put_plain(d->file);
+    put_plain(d->file, strlen(d->file));
     if (d->line > 0)
         fprintf(stderr, ":%lld", (long long)d->line);
     fputs(": ", stderr);
@@ -173,7 +182,7 @@ put_finding(void *user, const osdtex_diagnostic *d)
     else
         fprintf(stderr, "%s: ", d->stage);
     put_place(d);
-    put_plain(d->message);
+    put_sentence(d);
     fputc('\n', stderr);
 }
 
@@ -193,7 +202,7 @@ put_repeats(otx_session *session)
         fputs("osdtex: ", stderr);
         put_place(&d);
         fprintf(stderr, "%lld findings like this: ", (long long)d.count);
-        put_plain(d.message);
+        put_sentence(&d);
         fputc('\n', stderr);
     }
 }

@@ -120,7 +120,7 @@ resolve_default(
     return otx_fail(
         run, OSDTEX_ERROR_COLOUR, stage, otx_where_file(source->path),
         "the configuration has no %s, so the colours of this picture are "
-        "unknown; say --from to name their space",
+        "unknown; say {from} to name their space",
         source->is_float ? "role scene_linear" : "space for sRGB textures");
 }
 
@@ -190,8 +190,9 @@ otx_colour_resolve(
         *decoder = NULL;
     if (source->from && source->from[0])
     {
-        OTX_TRY(otx_colour_find(run, colour, "--from", source->from, space));
-        return say_source(run, source, *space, "--from", "");
+        OTX_TRY(otx_colour_find(
+            run, colour, OTX_OPTION_NAME("from"), source->from, space));
+        return say_source(run, source, *space, OTX_OPTION_NAME("from"), "");
     }
     OTX_TRY(resolve_tags(run, colour, source, space));
     if (!*space)
@@ -251,8 +252,8 @@ otx_colour_resolve_linear(
 {
     if (to && to[0])
     {
-        OTX_TRY(otx_colour_find(run, colour, "--to", to, space));
-        return say_linear(run, colour, *space, "--to");
+        OTX_TRY(otx_colour_find(run, colour, OTX_OPTION_NAME("to"), to, space));
+        return say_linear(run, colour, *space, OTX_OPTION_NAME("to"));
     }
     *space = otx_colour_scene_linear(colour);
     if (*space)
@@ -264,7 +265,7 @@ otx_colour_resolve_linear(
     return otx_fail(
         run, OSDTEX_ERROR_COLOUR, stage, otx_where_file(colour->path),
         "the configuration has neither a role scene_linear nor a linear space "
-        "by a usual name; say --to to name one");
+        "by a usual name; say {to} to name one");
 }
 
 /* The candidate for matching, and by which rule. */
@@ -273,10 +274,10 @@ choose_match(
     otx_run *run, const otx_colour *colour, const char *match_space,
     const char **space, const char **rule)
 {
-    *rule = "--match-space";
+    *rule = OTX_OPTION_NAME("match-space");
     if (match_space && match_space[0])
         return otx_colour_find(
-            run, colour, "--match-space", match_space, space);
+            run, colour, OTX_OPTION_NAME("match-space"), match_space, space);
     *rule = "role color_picking";
     *space = otx_ocio_role(colour->config, "color_picking");
     if (*space)

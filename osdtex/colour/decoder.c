@@ -191,7 +191,7 @@ warn(
 {
     otx_note(
         run, OSDTEX_SEVERITY_WARNING, stage, otx_where_file(source->path),
-        "passing over %s, which %s; say --from to name the picture's colour "
+        "passing over %s, which %s; say {from} to name the picture's colour "
         "space",
         what, why);
     return OSDTEX_OK;
@@ -209,7 +209,8 @@ from_profile(
 
     if (source->icc_fault)
         snprintf(
-            reason, sizeof reason, "cannot be used (%.120s)", source->icc_fault);
+            reason, sizeof reason, "cannot be used (%.120s)",
+            source->icc_fault);
     name[0] = '\0';
     if (!source->icc_fault)
         OTX_TRY(otx_icc_profile_open(

@@ -50,7 +50,7 @@ own_space(
         return OSDTEX_OK;
     return otx_fail(
         run, OSDTEX_ERROR_COLOUR, stage, otx_where_file(colour->path),
-        "--for %s: the configuration has no space '%s'; say --to to "
+        "{for} %s: the configuration has no space '%s'; say {to} to "
         "name one",
         r->name, r->interop_id);
 }
@@ -71,6 +71,6 @@ otx_receiver_resolve(
     out->as_png = receiver == OTX_RECEIVER_WEB;
     otx_note(
         run, OSDTEX_SEVERITY_INFO, stage, OTX_NOWHERE,
-        "output space: '%s' (--for %s)%s", out->space, r->name, r->advice);
+        "output space: '%s' ({for} %s)%s", out->space, r->name, r->advice);
     return OSDTEX_OK;
 }

@@ -485,7 +485,7 @@ say_tiles(const writer *w)
             w->run, OSDTEX_SEVERITY_WARNING, STAGE, OTX_NOWHERE,
             "the bake has %" PRId32
             " UDIM tiles, and web viewers show one: leave out "
-            "--texels-per-unit, or lower it",
+            "{texels-per-unit}, or lower it",
             w->layout->tile_count);
 }
 

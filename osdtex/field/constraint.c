@@ -87,8 +87,7 @@ otx_constraint_check_table(
     return otx_fail(
         run, OSDTEX_ERROR_ARGUMENT, "field", otx_where_file(set->path),
         "the table has %d lines, but the mesh has %d faces, and each needs "
-        "one; `osdtex field CAGE.obj --level N -o NAME.csv` with the level of "
-        "the mesh writes them",
+        "one; a field that is written at the level of the mesh has them",
         (int)set->count, (int)face_count);
 }
 

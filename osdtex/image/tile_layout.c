@@ -78,7 +78,7 @@ otx_tile_layout_arrange(otx_run *run, otx_tile_layout *layout)
         run, OSDTEX_ERROR_LIMIT, STAGE, OTX_NOWHERE,
         "%lld x %lld tiles of %d texels make a picture of more than %d texels "
         "a side; take smaller tiles, fewer boundaries or corners, or only the "
-        "tiles that one mesh needs (--for)",
+        "tiles that one mesh needs ({for})",
         (long long)columns, (long long)rows, (int)layout->cell,
         (int)OTX_TILE_LAYOUT_MAX_SIDE);
 }

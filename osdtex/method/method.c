@@ -81,7 +81,7 @@ check_edges(
         run, OSDTEX_ERROR_LIMIT, "map",
         (otx_where){surface->cage->path, 0, -1, -1},
         "at a scale of %g an edge of the mesh is %.3g pictures long, over the "
-        "limit of %g; raise --scale or --level",
+        "limit of %g; raise {scale} or {level}",
         request->scale, longest / request->scale, PICTURES_MAX);
 }
 

@@ -148,8 +148,7 @@ otx_option_set(
     otx_near_text(key, option_name, &list, near_names);
     return otx_fail(
         run, OSDTEX_ERROR_ARGUMENT, "options", OTX_NOWHERE,
-        "the method has no setting '%.60s'%s", key,
-        near_names[0] ? near_names : "; `osdtex methods` tells those it has");
+        "the method has no setting '%.60s'%s", key, near_names);
 }
 
 void

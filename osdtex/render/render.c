@@ -92,13 +92,13 @@ check_options(otx_run *run, const otx_render_options *options)
                               options->show == OTX_SHOW_SINGULARITIES))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
-            "the model has no direction field to show; `osdtex field` makes "
-            "one, and maps of directional exemplars follow one");
+            "the model has no direction field to show; one is made of its "
+            "cage, and mappings of directional exemplars follow one");
     if (!options->overlay && options->show == OTX_SHOW_CELLS)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
-            "the model has no lattice to show; previews of `osdtex map "
-            "--method material` have one");
+            "the model has no lattice to show; mappings by "
+            "the method material have one");
     if (options->camera && !otx_camera_is_valid(options->camera))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,

@@ -304,8 +304,8 @@ advise_scheme(otx_run *run, const otx_cage *cage)
     }
     otx_note(
         run, OSDTEX_SEVERITY_INFO, STAGE, where,
-        "all faces are triangles; --scheme loop would give a smoother surface, "
-        "--scheme none leave them as they are");
+        "all faces are triangles; {scheme} loop would give a smoother surface, "
+        "{scheme} none leave them as they are");
 }
 
 static otx_status

@@ -108,7 +108,7 @@ check_triangles(otx_run *run, const otx_cage_input *in)
             return otx_fail(
                 run, OSDTEX_ERROR_TOPOLOGY, STAGE, at_face(in, f),
                 "face %d has %d corners, and Loop subdivides triangles only; "
-                "use --scheme catmark",
+                "use {scheme} catmark",
                 f, size);
     }
     return OSDTEX_OK;

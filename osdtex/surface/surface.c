@@ -132,7 +132,7 @@ check_level(
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, where,
             "a plain mesh is not subdivided, so its level is 0 and not %d; to "
-            "subdivide it use --scheme catmark, loop or bilinear",
+            "subdivide it use {scheme} catmark, loop or bilinear",
             level);
     if (fits(cage, level, memory_limit))
         return OSDTEX_OK;
@@ -141,12 +141,12 @@ check_level(
     if (best < 0)
         return otx_fail(
             run, OSDTEX_ERROR_LIMIT, STAGE, where,
-            "the cage alone needs about %.2f GiB; raise --memory-limit",
+            "the cage alone needs about %.2f GiB; raise {memory-limit}",
             predict_bytes(cage, 0) / gib);
     return otx_fail(
         run, OSDTEX_ERROR_LIMIT, STAGE, where,
         "level %d has %.0f faces and needs about %.1f GiB, over the limit; "
-        "use --level %d or raise --memory-limit",
+        "use {level} %d or raise {memory-limit}",
         level, count_level(cage, level).faces, predict_bytes(cage, level) / gib,
         best);
 }
@@ -165,7 +165,7 @@ check_holes(otx_run *run, const otx_cage *cage, const otx_level *level)
     }
     return otx_fail(
         run, OSDTEX_ERROR_TOPOLOGY, STAGE, where,
-        "the boundary rule none makes every face a hole; use --boundary "
+        "the boundary rule none makes every face a hole; use {boundary} "
         "edgeAndCorner");
 }
 

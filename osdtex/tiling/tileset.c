@@ -113,7 +113,7 @@ check_fit(
             run, OSDTEX_ERROR_ARGUMENT, STAGE,
             otx_where_file(exemplar->source_path),
             "the picture has %d x %d texels and a tile needs %d x %d of them; "
-            "take smaller tiles (--tile-size) or a larger picture",
+            "take smaller tiles ({tile-size}) or a larger picture",
             (int)width, (int)height, (int)side, (int)side);
     return OSDTEX_OK;
 }

@@ -94,9 +94,9 @@ fails_to_fit(otx_mapper *m, int32_t index)
             cage->path, cage->face_line ? cage->face_line[face] : 0, face, -1},
         cage->scheme == OTX_SCHEME_NONE
             ? "face %d is larger than the exemplar, which does not tile; raise "
-              "--scale, or subdivide the mesh with --scheme bilinear"
+              "{scale}, or subdivide the mesh with {scheme} bilinear"
             : "a leaf of face %d is larger than the exemplar, which does not "
-              "tile; raise --level or --scale",
+              "tile; raise {level} or {scale}",
         face);
 }
 

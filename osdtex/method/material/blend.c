@@ -32,14 +32,14 @@ otx_blend_check(const otx_material *m)
     if (m->courses.count > 0)
         return otx_fail(
             m->run, OSDTEX_ERROR_SUPPORT, "map", where,
-            "--set fill=blend needs a lattice that is laid as a whole, but the "
-            "exemplar is laid in courses; say --set courses=off or --set "
+            "{set} fill=blend needs a lattice that is laid as a whole, but the "
+            "exemplar is laid in courses; say {set} courses=off or {set} "
             "fill=on");
     if (!m->exemplar->wrap_x || !m->exemplar->wrap_y)
         return otx_fail(
             m->run, OSDTEX_ERROR_SUPPORT, "map", where,
-            "--set fill=blend needs an exemplar that tiles; make it tile "
-            "(--tileable make), or say --set fill=on");
+            "{set} fill=blend needs an exemplar that tiles; make it tile "
+            "({tileable} make), or say {set} fill=on");
     return OSDTEX_OK;
 }
 

@@ -28,7 +28,7 @@ otx_coursing_choose(otx_material *m)
         return otx_fail(
             m->run, OSDTEX_ERROR_SUPPORT, "map", otx_where_file(e->source_path),
             "courses are asked for, and the exemplar has none that repeat "
-            "across a picture that tiles; try --tileable make, or leave out "
+            "across a picture that tiles; try {tileable} make, or leave out "
             "courses=on");
     if (wish == OTX_COURSING_AUTO &&
         !(otx_courses_are_plain(&found) && m->analysis.contrast < LOOSE))

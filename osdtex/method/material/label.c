@@ -59,7 +59,7 @@ choose_window(const otx_material *m, double rim, window *out)
             otx_where_file(m->exemplar->source_path),
             "the exemplar does not tile, and not one of its lattice cells lies "
             "inside it with room for a face around; give a picture that shows "
-            "more of the lattice, or raise --level");
+            "more of the lattice, or raise {level}");
     return OSDTEX_OK;
 }
 

@@ -23,7 +23,7 @@ choose_lattice(otx_material *m)
             m->run, OSDTEX_ERROR_SUPPORT, "map",
             otx_where_file(m->exemplar->source_path),
             "the exemplar is %s: periodic coordinates need a lattice; give it "
-            "with --generators, say --set courses=on for masonry, or take "
+            "with {generators}, say {set} courses=on for masonry, or take "
             "another method",
             otx_analysis_name(m->analysis.kind));
     m->cell = fmin(otx_vec2_length(g[0]), otx_vec2_length(g[1])) / m->texels;

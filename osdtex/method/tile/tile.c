@@ -15,8 +15,8 @@ static const char *const DIRECTIONS[] = {"loops", "x", "y", "z", NULL};
 
 static const otx_option OPTIONS[] = {
     {"level", OTX_OPTION_INTEGER, FIELD(level), -1, OTX_LEVEL_MAX, -1, NULL,
-     "Subdivision level whose quads get one tile each; -1 chooses by the scale "
-     "(--tile-level)"},
+     "Subdivision level whose quads get one tile each; -1 chooses by the "
+     "scale"},
     {"rule", OTX_OPTION_CHOICE, FIELD(rule), 0, 0, OTX_TILE_SPREAD, RULES,
      "spread: no tile beside the same one, all used alike; plain: every edge "
      "at random, as published"},
@@ -59,11 +59,11 @@ quad_level(otx_run *run, const otx_surface *surface, int32_t *out)
         return otx_fail(
             run, OSDTEX_ERROR_TOPOLOGY, STAGE, where,
             "the cage has faces that are no quads; one subdivision step makes "
-            "quads of them: give --level 1 or more");
+            "quads of them: give {level} 1 or more");
     return otx_fail(
         run, OSDTEX_ERROR_TOPOLOGY, STAGE, where,
         "tiles need quads, and this surface has faces that are none; subdivide "
-        "it with --scheme catmark, or with bilinear, which keeps its shape, or "
+        "it with {scheme} catmark, or with bilinear, which keeps its shape, or "
         "use another method");
 }
 
@@ -95,7 +95,7 @@ otx_tile_level(
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "tiles at level %d need a surface that is subdivided as often, and "
-            "it has levels 0 to %d; give --level",
+            "it has levels 0 to %d; give {level}",
             (int)settings->level, (int)surface->level_count - 1);
     if (settings->level >= 0 && settings->level < first)
         return otx_fail(
@@ -254,7 +254,7 @@ missing_tile(otx_run *run, const otx_exemplar *exemplar, int32_t face)
         run, OSDTEX_ERROR_ARGUMENT, STAGE,
         (otx_where){exemplar->source_path, 0, face, -1},
         "the tiled texture was made for another mesh, level, seed or setting "
-        "and lacks a tile that is needed here; make it again with --for");
+        "and lacks a tile that is needed here; make it again with {for}");
 }
 
 /* UVs of the leaves from their places in the tiles `names`. */

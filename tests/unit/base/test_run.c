@@ -86,6 +86,22 @@ progress_can_cancel(void **state)
     test_run_destroy(run);
 }
 
+/* Programs call options by other names than the library does. */
+static void
+names_of_options_are_marked(void **state)
+{
+    otx_run *run = test_run_create();
+    const osdtex_diagnostic *error = otx_diagnostics_error(run->diagnostics);
+
+    (void)state;
+    (void)otx_fail(
+        run, OSDTEX_ERROR_LIMIT, "a", OTX_NOWHERE, "%s: raise {level} to %d",
+        OTX_OPTION_NAME("to"), 3);
+    assert_string_equal(error->message, "to: raise level to 3");
+    assert_string_equal(error->marked, "\x1fto\x1f: raise \x1flevel\x1f to 3");
+    test_run_destroy(run);
+}
+
 /* Findings fold by their format, but the error is told in its own words. */
 static void
 the_first_error_is_kept_in_its_own_words(void **state)
@@ -121,6 +137,7 @@ main(void)
         cmocka_unit_test(listeners_hear_new_findings_once),
         cmocka_unit_test(progress_can_cancel),
         cmocka_unit_test(the_first_error_is_kept_in_its_own_words),
+        cmocka_unit_test(names_of_options_are_marked),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -54,7 +54,7 @@ test_order(void **state)
           .from = "lin_ap0",
           .interop_id = "lin_ap1_scene"},
          "ACES2065-1",
-         "--from"},
+         "from"},
         {{.path = "b_nrm_.exr",
           .interop_id = "lin_rec709_scene",
           .oiio_space = "ACEScg",
@@ -199,7 +199,7 @@ test_unknown_name_lists_near_ones(void **state)
         otx_colour_resolve(run, &colour, &source, &space, NULL),
         OSDTEX_ERROR_COLOUR);
     assert_null(space);
-    assert_non_null(strstr(test_last_message(run), "--from"));
+    assert_non_null(strstr(test_last_message(run), "from"));
     assert_non_null(strstr(test_last_message(run), "'ACEScg'"));
     test_run_destroy(run);
 }

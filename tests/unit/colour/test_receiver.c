@@ -100,8 +100,8 @@ a_space_that_is_missing_is_said(void **state)
     assert_int_equal(
         otx_receiver_resolve(run, &colour, OTX_RECEIVER_MAYA, NULL, &choice),
         OSDTEX_ERROR_COLOUR);
-    assert_non_null(strstr(test_last_message(run), "--for maya"));
-    assert_non_null(strstr(test_last_message(run), "--to"));
+    assert_non_null(strstr(test_last_message(run), "for maya"));
+    assert_non_null(strstr(test_last_message(run), "to"));
     test_run_destroy(run);
 }
 

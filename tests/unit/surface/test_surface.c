@@ -460,7 +460,7 @@ test_limits_come_before_memory(void **state)
     assert_true(
         otx_allocator_peak(run->allocator) < peak + 262144 && bytes > 4000000);
     assert_null(s.levels);
-    assert_non_null(strstr(test_last_message(run), "use --level 5"));
+    assert_non_null(strstr(test_last_message(run), "use level 5"));
     assert_int_equal(otx_surface_refine(run, &cage, 6, bytes, &s), OSDTEX_OK);
     assert_true(otx_allocator_peak(run->allocator) < bytes);
     assert_int_equal(
