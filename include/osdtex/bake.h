@@ -10,7 +10,9 @@ OSDTEX_BEGIN_DECLS
 typedef int32_t osdtex_bake_uvs;
 enum
 {
-    OSDTEX_BAKE_UVS_AUTO = 0, /* the cage's where it has UVs */
+    OSDTEX_BAKE_UVS_AUTO = 0, /* the cage's where they can be baked onto: on
+                               * UDIM tiles, with area, not on top of each
+                               * other; else an atlas, and a finding */
     OSDTEX_BAKE_UVS_OWN = 1,  /* the cage's, on UDIM tiles */
     OSDTEX_BAKE_UVS_ATLAS = 2 /* a block for every face of the cage */
 };
@@ -64,8 +66,8 @@ osdtex_bake_options_init(osdtex_bake_options *out, size_t bytes);
 /* Bakes a mapping into textures of the cage: NAME_cage.obj and NAME_cage.mtl,
  * NAME.<UDIM>.exr (1001 for the unit square), NAME.usda and NAME.mtlx, all or
  * none of them. `path` is FOLDER/NAME.obj; that file itself is written only
- * where options->mesh asks for it. ARGUMENT (no such tile), IO, LIMIT (UVs
- * outside of UDIM), MEMORY, CANCELLED. */
+ * where options->mesh asks for it. ARGUMENT (no such tile), IO, TOPOLOGY (own
+ * UVs are asked for that cannot be baked onto), LIMIT, MEMORY, CANCELLED. */
 OSDTEX_API osdtex_status osdtex_bake(
     osdtex_context *context, const osdtex_mapping *mapping, const char *path,
     const osdtex_bake_options *options);

@@ -6,6 +6,8 @@
  *     osdtex_cage_read       the artist's cage, validated (cage.h)
  *     osdtex_exemplar_read   the picture of a material, colours resolved
  *                            (exemplar.h)
+ *     osdtex_preflight       what the rest will come to, and what is wrong
+ *                            with it, before it costs anything (preflight.h)
  *     osdtex_map             a mapping: the cage refined, and UVs into the
  *                            exemplar for every face (mapping.h)
  *     osdtex_mapping_write   OBJ + MTL + EXR that load in the DCC (mapping.h)
@@ -54,6 +56,7 @@
 #include <osdtex/image.h>
 #include <osdtex/mapping.h>
 #include <osdtex/method.h>
+#include <osdtex/preflight.h>
 #include <osdtex/render.h>
 #include <osdtex/surface.h>
 #include <osdtex/tiles.h>

@@ -2,82 +2,24 @@
 #include "api/call.h"
 #include "api/handle.h"
 #include "api/map_input.h"
+#include "api/map_resolve.h"
 #include "api/method_settings.h"
 #include "api/several.h"
 #include "export/model.h"
 #include "word/near.h"
 
-#include <math.h>
 #include <string.h>
-
-static const char *
-method_name(const void *list, int32_t index)
-{
-    (void)list;
-    return index < otx_method_count() ? otx_method_at(index)->name : NULL;
-}
 
 static otx_status
 choose_method(otx_run *run, const char *name, osdtex_mapping *handle)
 {
-    char near_names[256];
+    const bool is_auto = name && strcmp(name, "auto") == 0;
 
-    if (name && strcmp(name, "auto") == 0 && !handle->request.demand)
+    if (is_auto && !handle->request.demand)
         return otx_method_choose(
             run, &handle->surface->surface, &handle->exemplar->exemplar,
             &handle->request, &handle->method);
-    handle->method = name && strcmp(name, "auto") != 0 ? otx_method_find(name)
-                                                       : otx_method_at(0);
-    if (handle->method)
-        return OSDTEX_OK;
-    otx_near_text(name ? name : "", method_name, NULL, near_names);
-    return otx_fail(
-        run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
-        "there is no method '%.60s'%s", name ? name : "", near_names);
-}
-
-static otx_status
-choose_request(
-    otx_run *run, const osdtex_surface *surface,
-    const osdtex_exemplar_info *exemplar, const osdtex_map_options *options,
-    otx_map_request *out)
-{
-    const osdtex_cage_info *cage = &surface->cage->info;
-
-    *out = (otx_map_request){
-        .scale = options->scale,
-        .first_face = options->first_face,
-        .first_position = {options->first_u, options->first_v},
-        .first_angle = options->first_angle,
-    };
-    if (options->scale == 0.0)
-    {
-        out->scale = cage->default_scale;
-        otx_note(
-            run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
-            "scale %g: a fifth of the diagonal of the cage's bounding box",
-            out->scale);
-    }
-    if (!(out->scale > 0.0) || !isfinite(out->scale))
-        return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
-            "the scale is a positive number of scene units, not %g",
-            out->scale);
-    /* A scale means the picture as it was given, not what was cut out of it. */
-    if (exemplar->tile_size == 0)
-        out->scale *= (double)exemplar->width / exemplar->source_width;
-    if (options->first_face < -1 || options->first_face >= cage->face_count)
-        return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
-            "the first patch begins at face %d, but the cage has faces 0 to "
-            "%d",
-            options->first_face, cage->face_count - 1);
-    if (!isfinite(options->first_u) || !isfinite(options->first_v) ||
-        !isfinite(options->first_angle))
-        return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
-            "position and angle of the first patch must be finite");
-    return OSDTEX_OK;
+    return otx_resolve_method(run, is_auto ? NULL : name, &handle->method);
 }
 
 static osdtex_mapping_info
@@ -148,8 +90,8 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
     handle->exemplar = exemplar;
     handle->seed = ours.seed;
     OTX_TRY(otx_call_hold(run, exemplar->arena));
-    OTX_TRY(
-        choose_request(run, surface, &exemplar->info, &ours, &handle->request));
+    OTX_TRY(otx_resolve_request(
+        run, surface->cage, &exemplar->info, &ours, &handle->request));
     OTX_TRY(otx_map_input_options(run, &ours, &handle->request.constraints));
     OTX_TRY(otx_several_take(run, &ours, handle));
     OTX_TRY(otx_map_input_analysis(

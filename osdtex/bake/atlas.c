@@ -250,21 +250,15 @@ check_tiles(otx_run *run, const otx_atlas *atlas)
     return OSDTEX_OK;
 }
 
-/* Without texels to a unit only blocks of the least size fill more than one
- * tile. */
 static void
-tell(
+warn(
     otx_run *run, const otx_cage *cage, const otx_atlas_options *options,
     const otx_atlas *atlas)
 {
-    if (atlas->texels_per_unit > 0.0)
-        otx_note(
-            run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
-            "an atlas of %d tile%s, %.4g texels per scene unit, margins of %d "
-            "texels",
-            atlas->tile_count, atlas->tile_count == 1 ? "" : "s",
-            atlas->texels_per_unit, atlas->margin);
-    else
+    /* Without texels to a unit only blocks of the least size fill more than one
+     * tile.
+     */
+    if (!(atlas->texels_per_unit > 0.0))
         otx_note(
             run, OSDTEX_SEVERITY_WARNING, STAGE, OTX_NOWHERE,
             "%d faces fill %d tiles of %d x %d texels with the smallest blocks "
@@ -273,6 +267,18 @@ tell(
             "UVs",
             cage->face_count, atlas->tile_count, options->side, options->side,
             2 * atlas->margin);
+}
+
+void
+otx_atlas_tell(otx_run *run, const otx_atlas *atlas)
+{
+    if (atlas->texels_per_unit > 0.0)
+        otx_note(
+            run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
+            "an atlas of %d tile%s, %.4g texels per scene unit, margins of %d "
+            "texels",
+            atlas->tile_count, atlas->tile_count == 1 ? "" : "s",
+            atlas->texels_per_unit, atlas->margin);
 }
 
 otx_status
@@ -305,6 +311,6 @@ otx_atlas_pack(
     set_uvs(cage, &p, out);
     otx_arena_release(run->scratch, mark);
     OTX_TRY(check_tiles(run, out));
-    tell(run, cage, options, out);
+    warn(run, cage, options, out);
     return OSDTEX_OK;
 }

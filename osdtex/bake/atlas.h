@@ -33,6 +33,9 @@ typedef struct otx_atlas
     int32_t tile_count;
 } otx_atlas;
 
+/* Says what an atlas has come to. */
+void otx_atlas_tell(otx_run *run, const otx_atlas *atlas);
+
 /* Holes get a block too: they may be closed later. ARGUMENT, LIMIT when the
  * blocks do not fit 9999 - 1001 tiles, MEMORY. Made in run->arena. */
 otx_status otx_atlas_pack(

@@ -5,6 +5,7 @@
 #include "bake/fvar_linear.h"
 #include "image/udim.h"
 #include "math/vec.h"
+#include "surface/draft.h"
 
 #include <string.h>
 
@@ -14,10 +15,6 @@ enum
 {
     MARGIN_OWN = 16 /* texels continued beyond the rims of own UVs */
 };
-
-/* How far a face may reach over the border of a tile and still not be in the
- * next: rounding of UVs that are meant to end there. */
-static const double OVER = 1e-5;
 
 /* ---- coordinates --------------------------------------------------------- */
 
@@ -57,6 +54,7 @@ make_atlas(otx_run *run, const otx_layout_options *options, otx_layout *out)
     if (!leaf_uvs || !face_uvs)
         return otx_fail_memory(run, STAGE);
     OTX_TRY(otx_atlas_pack(run, surface, &how, &atlas));
+    otx_atlas_tell(run, &atlas);
     OTX_TRY(otx_fvar_linear(run, surface, atlas.uvs, leaf_uvs));
     for (int32_t c = 0; c < cage_corners; ++c)
         face_uvs[c] = c;
@@ -69,17 +67,36 @@ make_atlas(otx_run *run, const otx_layout_options *options, otx_layout *out)
     return OSDTEX_OK;
 }
 
+/* Own UVs or an atlas, judged by a draft of the cage as it was, or would be,
+ * before the mapping was made. */
+static otx_status
+choose_source(
+    otx_run *run, const otx_surface *surface, otx_layout_source asked,
+    otx_layout_source *out)
+{
+    otx_run aside = *run;
+    otx_uv_survey survey;
+    otx_surface draft;
+    otx_status status;
+
+    aside.arena = otx_arena_create(run->allocator);
+    if (!aside.arena)
+        return otx_fail_memory(run, STAGE);
+    status = otx_surface_draft(
+        &aside, surface->cage, surface->level_count - 1, &draft);
+    if (status == OSDTEX_OK)
+        status = otx_uv_choose(&aside, &draft, asked, out, &survey);
+    otx_arena_destroy(aside.arena);
+    return status;
+}
+
 static otx_status
 place_leaves(otx_run *run, const otx_layout_options *options, otx_layout *out)
 {
-    const bool has_own = out->surface->cage->uv_count > 0;
+    otx_layout_source source;
 
-    if (options->source == OTX_LAYOUT_OWN && !has_own)
-        return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
-            "the cage has no UVs to bake onto; give it some, or let an atlas "
-            "be made");
-    if (options->source == OTX_LAYOUT_ATLAS || !has_own)
+    OTX_TRY(choose_source(run, out->surface, options->source, &source));
+    if (source == OTX_LAYOUT_ATLAS)
         return make_atlas(run, options, out);
     out->margin = options->margin > 0 ? options->margin : MARGIN_OWN;
     return use_own(run, out);
@@ -248,7 +265,7 @@ typedef struct span
 static void
 span_along(double low, double high, int32_t *first, int32_t *end)
 {
-    const double over = fmin(OVER, 0.25 * (high - low));
+    const double over = fmin(OTX_UDIM_OVER, 0.25 * (high - low));
 
     *first = (int32_t)floor(low + over);
     *end = (int32_t)floor(high - over) + 1;
@@ -269,8 +286,9 @@ span_of(const otx_layout *layout, int32_t face, span *out)
             low[i] = fmin(low[i], x);
             high[i] = fmax(high[i], x);
         }
-    if (!(low[0] > -OVER && low[1] > -OVER &&
-          high[0] < OTX_UDIM_COLUMNS + OVER && high[1] < OTX_UDIM_ROWS + OVER))
+    if (!(low[0] > -OTX_UDIM_OVER && low[1] > -OTX_UDIM_OVER &&
+          high[0] < OTX_UDIM_COLUMNS + OTX_UDIM_OVER &&
+          high[1] < OTX_UDIM_ROWS + OTX_UDIM_OVER))
         return false;
     span_along(low[0], high[0], &out->column, &out->column_end);
     span_along(low[1], high[1], &out->row, &out->row_end);
@@ -314,7 +332,7 @@ outside(otx_run *run, const otx_layout *layout, int32_t face)
     where.face = leaf->face_cage[face];
     where.line = cage->face_line ? cage->face_line[where.face] : 0;
     return otx_fail(
-        run, OSDTEX_ERROR_LIMIT, STAGE, where,
+        run, OSDTEX_ERROR_TOPOLOGY, STAGE, where,
         "face %d has UVs near (%g, %g), outside of the UDIM tiles 1001 to "
         "9999; move them to u from 0 to 10 and v from 0, or bake to an atlas",
         where.face, (double)uv[0], (double)uv[1]);
@@ -401,65 +419,6 @@ find_tiles(otx_run *run, otx_layout *out)
     return status;
 }
 
-/* ---- faces without area ---------------------------------------------------
- */
-
-/* Whether a leaf face has a millionth of a texel at least. */
-static bool
-has_area(const otx_layout *layout, int32_t face)
-{
-    const otx_level *leaf = otx_surface_leaf(layout->surface);
-    const int32_t first = leaf->face_first[face];
-    const float *a = layout->leaf_uvs + 2 * (size_t)first;
-    double area2 = 0.0;
-
-    for (int32_t c = first + 2; c < leaf->face_first[face + 1]; ++c)
-    {
-        const float *p = layout->leaf_uvs + 2 * (size_t)(c - 1);
-        const float *q = p + 2;
-
-        area2 += fabs(
-            ((double)p[0] - a[0]) * ((double)q[1] - a[1]) -
-            ((double)p[1] - a[1]) * ((double)q[0] - a[0]));
-    }
-    return 0.5 * area2 * layout->side * layout->side > 1e-6;
-}
-
-/* Own UVs that were never unwrapped are all in one place: say so. */
-static otx_status
-check_areas(otx_run *run, const otx_layout *layout)
-{
-    const otx_level *leaf = otx_surface_leaf(layout->surface);
-    const otx_cage *cage = layout->surface->cage;
-    otx_where where = {.file = cage->path, .face = -1};
-    int32_t covered = 0, flat = 0;
-
-    for (int32_t f = 0; f < leaf->face_count; ++f)
-    {
-        if (!layout->covered[f])
-            continue;
-        ++covered;
-        if (has_area(layout, f))
-            continue;
-        if (flat++ == 0)
-            where.face = leaf->face_cage[f];
-    }
-    if (flat == 0)
-        return OSDTEX_OK;
-    where.line = cage->face_line ? cage->face_line[where.face] : 0;
-    if (flat == covered)
-        return otx_fail(
-            run, OSDTEX_ERROR_TOPOLOGY, STAGE, where,
-            "the cage's UVs lie in a point or on a line; unwrap it, or let an "
-            "atlas be made");
-    otx_note(
-        run, OSDTEX_SEVERITY_WARNING, STAGE, where,
-        "face %d has no area in UV, and %d of %d refined faces have none: "
-        "texels cannot show them; unwrap them, or let an atlas be made",
-        where.face, flat, covered);
-    return OSDTEX_OK;
-}
-
 otx_status
 otx_layout_build(
     otx_run *run, const otx_mapping *mapping, const otx_layout_options *options,
@@ -477,7 +436,6 @@ otx_layout_build(
             OTX_ATLAS_MARGIN_MAX);
     OTX_TRY(place_leaves(run, options, out));
     OTX_TRY(find_covered(run, mapping, out));
-    OTX_TRY(check_areas(run, out));
     OTX_TRY(find_rims(run, out));
     OTX_TRY(find_charts(run, out));
     return find_tiles(run, out);

@@ -7,14 +7,8 @@
 #ifndef OTX_BAKE_LAYOUT_H
 #define OTX_BAKE_LAYOUT_H
 
+#include "bake/uv_choice.h"
 #include "mapping/mapping.h"
-
-typedef enum otx_layout_source
-{
-    OTX_LAYOUT_AUTO, /* the cage's UVs where it has them */
-    OTX_LAYOUT_OWN,
-    OTX_LAYOUT_ATLAS
-} otx_layout_source;
 
 typedef struct otx_layout_options
 {
@@ -53,9 +47,9 @@ typedef struct otx_layout
 /* Lays out what `mapping` covers; lives in run->arena and borrows the mapping's
  * surface.
  *
- * ARGUMENT (options out of range, own UVs asked for and not there), LIMIT (UVs
- * outside of the UDIM tiles 1001 to 9999), TOPOLOGY when nothing is covered or
- * no UVs have an area, MEMORY. */
+ * ARGUMENT (options out of range, own UVs asked for and not there), TOPOLOGY
+ * when nothing is covered or own UVs are asked for that cannot be baked onto
+ * (uv_choice.h), LIMIT, MEMORY, CANCELLED. */
 otx_status otx_layout_build(
     otx_run *run, const otx_mapping *mapping, const otx_layout_options *options,
     otx_layout *out);

@@ -168,6 +168,17 @@ find_alike(otx_diagnostics *d, const finding *f)
     return NULL;
 }
 
+/* Whether a finding is one that was kept, said again: stages that know the same
+ * thing may each say it. */
+static bool
+is_again(const finding *kept, const finding *f, const char *message)
+{
+    return kept->public.line == f->public.line &&
+           kept->public.face == f->public.face &&
+           kept->public.vertex == f->public.vertex &&
+           strcmp(kept->public.message, message) == 0;
+}
+
 /* Keeps a finding; dropped without a word when memory is out or the list is
  * full, since the status that follows is what matters then. */
 static void
@@ -177,7 +188,7 @@ keep(otx_diagnostics *d, finding f)
 
     if (alike)
     {
-        ++alike->public.count;
+        alike->public.count += !is_again(alike, &f, message);
         return;
     }
     if (d->count == MAX_FINDINGS)

@@ -127,7 +127,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_BAKE_UVS] =
         {"uvs", 0, OTX_FLAG_GROUP_BAKE, "auto|own|atlas",
          "texture coordinates to bake onto: the cage's own, or an atlas with a "
-         "block for every face (default auto: its own where it has UVs)"},
+         "block for every face (default auto: its own where they can be baked "
+         "onto, on UDIM tiles, with area, not on top of each other)"},
     [OTX_FLAG_RESOLUTION] =
         {"resolution", 0, OTX_FLAG_GROUP_BAKE, "PX",
          "texels of a UDIM tile's side (default 4096)"},

@@ -16,17 +16,17 @@ typedef struct job
 
     osdtex_cage *cage;
     osdtex_exemplar *exemplar;
+    osdtex_forecast forecast;
     osdtex_surface *surface;
     osdtex_mapping *mapping;
     osdtex_image *picture;
 } job;
 
-/* Cage, exemplar, surface. */
+/* Cage and exemplars. */
 static osdtex_status
 read_inputs(otx_session *session, job *j)
 {
     otx_map_request *r = &j->request;
-    const osdtex_cage_info *cage;
     osdtex_status status;
 
     status = osdtex_cage_read(
@@ -38,24 +38,30 @@ read_inputs(otx_session *session, job *j)
     if (status == OSDTEX_OK)
         status = otx_also_flags_read(
             session->context, &r->exemplar_options, &r->also);
-    if (status != OSDTEX_OK)
-        return status;
     r->map_options.also = r->also.list;
     r->map_options.also_count = r->also.count;
     otx_session_lap(session, "inputs read");
-    cage = osdtex_cage_describe(j->cage);
-    if (r->map_options.scale == 0.0)
-    {
-        r->map_options.scale = cage->default_scale;
-        otx_session_say(
-            session,
-            "scale %g: a fifth of the diagonal of the cage's bounding box",
-            cage->default_scale);
-    }
+    return status;
+}
+
+/* What is wrong is said before it costs anything. */
+static osdtex_status
+look_ahead(otx_session *session, job *j)
+{
+    otx_map_request *r = &j->request;
+    osdtex_job asked = osdtex_job_none();
+    osdtex_status status;
+
+    asked.surface = &r->surface_options;
+    asked.map = &r->map_options;
+    asked.bake = r->bakes ? &r->bake_options : NULL;
+    status = osdtex_preflight(
+        session->context, j->cage, j->exemplar, &asked, &j->forecast);
+    r->map_options.scale = j->forecast.scale;
     r->surface_options.leaf_edge =
         osdtex_exemplar_leaf_edge(j->exemplar, r->map_options.scale);
-    return osdtex_surface_refine(
-        session->context, j->cage, &r->surface_options, &j->surface);
+    otx_session_lap(session, "looked over");
+    return status;
 }
 
 /* Rendered before anything is written, so that what can go wrong in it leaves
@@ -121,10 +127,24 @@ write_outputs(otx_session *session, const job *j)
 }
 
 static void
+say_bake(const job *j)
+{
+    const otx_map_request *r = &j->request;
+
+    printf(
+        "baked into    %s, %s and their textures of %d texels\n"
+        "onto          %s, about %.4g texels per scene unit\n",
+        r->cage_obj, r->cage_mtl, r->bake_options.resolution,
+        j->forecast.uvs == OSDTEX_BAKE_UVS_OWN ? "the cage's own UVs"
+                                               : "an atlas",
+        j->forecast.bake_density);
+}
+
+static void
 say_plan(const job *j)
 {
     const otx_map_request *r = &j->request;
-    const osdtex_surface_info *surface = osdtex_surface_describe(j->surface);
+    const osdtex_forecast *f = &j->forecast;
     const osdtex_exemplar_info *e = osdtex_exemplar_describe(j->exemplar);
     const double kept =
         e->tile_size == 0 ? (double)e->width / e->source_width : 1.0;
@@ -132,12 +152,11 @@ say_plan(const job *j)
 
     osdtex_method_get(0, &method);
     printf(
-        "would texture %s: %d faces at level %d\n"
+        "would texture %s: %.0f faces at level %d, about %.3g GiB of memory\n"
         "with          %s: %d x %d, %g scene units wide\n"
         "by            %s\n",
-        r->values->operands[0], surface->face_count, surface->level,
-        r->values->operands[1], e->width, e->height,
-        kept * r->map_options.scale,
+        r->values->operands[0], f->face_count, f->level, f->bytes / 0x1p30,
+        r->values->operands[1], e->width, e->height, kept * f->scale,
         r->map_options.method ? r->map_options.method : method.name);
     for (int k = 0; k < r->also.count; ++k)
         printf(
@@ -150,9 +169,7 @@ say_plan(const job *j)
             "into          %s, %s, %s%s\n", r->obj, r->mtl, r->exrs[0],
             r->also.count > 0 ? " and so on" : "");
     if (r->bakes)
-        printf(
-            "baked into    %s, %s and their textures of %d texels\n",
-            r->cage_obj, r->cage_mtl, r->bake_options.resolution);
+        say_bake(j);
     if (r->preview)
         printf("preview       %s\n", r->preview);
     if (r->report)
@@ -188,18 +205,23 @@ texture(otx_session *session, job *j)
 {
     osdtex_status status = read_inputs(session, j);
 
-    if (status != OSDTEX_OK)
-        return status;
-    otx_session_lap(session, "refined");
-    if (j->request.values->text[OTX_FLAG_DRY_RUN])
+    if (status == OSDTEX_OK)
+        status = look_ahead(session, j);
+    if (status == OSDTEX_OK && j->request.values->text[OTX_FLAG_DRY_RUN])
     {
         say_plan(j);
         return OSDTEX_OK;
     }
+    if (status == OSDTEX_OK)
+        status = osdtex_surface_refine(
+            session->context, j->cage, &j->request.surface_options,
+            &j->surface);
+    otx_session_lap(session, "refined");
     j->request.map_options.surface = j->surface;
-    status = osdtex_map(
-        session->context, j->cage, j->exemplar, &j->request.map_options,
-        &j->mapping);
+    if (status == OSDTEX_OK)
+        status = osdtex_map(
+            session->context, j->cage, j->exemplar, &j->request.map_options,
+            &j->mapping);
     otx_session_lap(session, "mapped");
     if (status == OSDTEX_OK)
         status = render_preview(session, j);

@@ -299,13 +299,6 @@ write_kind(const writer *w, otx_texel_kind kind)
         otx_arena_release(w->run->scratch, mark);
         OTX_TRY(status);
     }
-    if (kind == OTX_TEXEL_COLOR && bake.overlaps > 0)
-        otx_note(
-            w->run, OSDTEX_SEVERITY_WARNING, "bake", OTX_NOWHERE,
-            "faces lie on top of each other in UV (%" PRId64
-            " samples): the first of them is baked there; let an atlas be made "
-            "if they are to differ",
-            bake.overlaps);
     return OSDTEX_OK;
 }
 

@@ -15,6 +15,10 @@ enum
     OTX_UDIM_ROWS = 900 /* of which the last lacks its last place, 10000 */
 };
 
+/* How far a face may reach over the border of a tile and still not be in the
+ * next: rounding of UVs that are meant to end there. */
+#define OTX_UDIM_OVER 1e-5
+
 /* Column and row of a tile, which is its lower left corner in UV. */
 static inline int32_t
 otx_udim_column(int32_t tile)

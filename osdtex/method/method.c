@@ -2,7 +2,7 @@
 #include "method/method.h"
 
 #include "mapping/mapping_check.h"
-#include "mapping/seam.h"
+#include "method/scale_check.h"
 #include "seam/unit.h"
 
 #include <string.h>
@@ -62,32 +62,11 @@ otx_map_stats_stage(otx_map_stats *stats, const char *name)
     }
 }
 
-/* Pictures along a leaf edge, at most: UVs are floats, and seams are looked at
- * texel by texel. */
-static const double PICTURES_MAX = 1024.0;
-
-static otx_status
-check_edges(
-    otx_run *run, const otx_surface *surface, const otx_map_request *request)
-{
-    const otx_level *leaf = otx_surface_leaf(surface);
-    double longest = 0.0;
-
-    for (int32_t e = 0; e < leaf->edge_count; ++e)
-        longest = fmax(longest, otx_seam_edge_length(surface, e));
-    if (longest <= PICTURES_MAX * request->scale)
-        return OSDTEX_OK;
-    return otx_fail(
-        run, OSDTEX_ERROR_LIMIT, "map",
-        (otx_where){surface->cage->path, 0, -1, -1},
-        "at a scale of %g an edge of the mesh is %.3g pictures long, over the "
-        "limit of %g; raise {scale} or {level}",
-        request->scale, longest / request->scale, PICTURES_MAX);
-}
-
 /* Requests that no method could answer. */
 static otx_status
-check(otx_run *run, const otx_surface *surface, const otx_map_request *request)
+check(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    const otx_map_request *request)
 {
     if (!(request->scale > 0.0) || !isfinite(request->scale))
         return otx_fail(
@@ -114,7 +93,7 @@ check(otx_run *run, const otx_surface *surface, const otx_map_request *request)
             run, OSDTEX_ERROR_TOPOLOGY, "map",
             otx_where_file(surface->cage->path),
             "the surface has no area; there is nothing to texture");
-    return check_edges(run, surface, request);
+    return otx_scale_check(run, surface, 1.0, exemplar, request->scale);
 }
 
 otx_status
@@ -127,7 +106,7 @@ otx_method_map(
 
     *stats = (otx_map_stats){0};
     *out = (otx_mapping){0};
-    OTX_TRY(check(run, surface, request));
+    OTX_TRY(check(run, surface, exemplar, request));
     if (request->demand && !method->mixes)
         return otx_fail(
             run, OSDTEX_ERROR_SUPPORT, "map", OTX_NOWHERE,

@@ -91,6 +91,12 @@ predict_bytes(const otx_cage *cage, int32_t level)
     return bytes;
 }
 
+double
+otx_surface_face_count(const otx_cage *cage, int32_t level)
+{
+    return count_level(cage, cage->scheme == OTX_SCHEME_NONE ? 0 : level).faces;
+}
+
 size_t
 otx_surface_bytes(const otx_cage *cage, int32_t level)
 {
@@ -114,8 +120,8 @@ fits(const otx_cage *cage, int32_t level, size_t memory_limit)
            predict_bytes(cage, level) <= (double)memory_limit;
 }
 
-static otx_status
-check_level(
+otx_status
+otx_surface_check_level(
     otx_run *run, const otx_cage *cage, int32_t level, size_t memory_limit)
 {
     const double gib = 1024.0 * 1024.0 * 1024.0;
@@ -205,7 +211,7 @@ otx_surface_refine(
     float *tangents;
 
     *out = (otx_surface){0};
-    OTX_TRY(check_level(run, cage, level, memory_limit));
+    OTX_TRY(otx_surface_check_level(run, cage, level, memory_limit));
     OTX_TRY(otx_progress(run, STAGE, 0.0));
     OTX_TRY(
         plain ? otx_plain_cage(run, cage, &surface, &tangents)

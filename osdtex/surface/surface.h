@@ -68,6 +68,13 @@ otx_status otx_surface_refine(
 /* Predicted bytes of the levels, before anything is spent. */
 size_t otx_surface_bytes(const otx_cage *cage, int32_t level);
 
+/* Faces of a level, which no index may be able to count. */
+double otx_surface_face_count(const otx_cage *cage, int32_t level);
+
+/* The refusals of otx_surface_refine, at no cost: ARGUMENT, LIMIT. */
+otx_status otx_surface_check_level(
+    otx_run *run, const otx_cage *cage, int32_t level, size_t memory_limit);
+
 /* The level at which the mean leaf edge is nearest, as a ratio, to `length`
  * scene units, at most OTX_LEVEL_MAX and at least 0 (at least 1 when the cage
  * has faces that are not quads and the scheme makes quads). */

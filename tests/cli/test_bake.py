@@ -54,24 +54,27 @@ class Bakes(ProgramTest):
 
     def test_uvs_that_show_nothing(self):
         """All in a point, as of a cage that was never unwrapped; one face; and
-        beyond the tiles, where the corner that is there is named."""
+        beyond the tiles. Asked for they are refused where nothing comes of
+        them, else an atlas is made."""
         faces = ("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n"
                  "{}f 1/1 2/2 3/3 4/4\nf 2/2 5/5 6/6 3/3\n")
         for us, code, words in (
-                ((.5, .5, .5, .5, .5, .5), 2, "in a point or on a line"),
+                (None, 2, "in a point or on a line"),
                 ((.1, .5, .5, .1, .5, .5), 0, "face 1 has no area in UV"),
-                ((.1, 12, 12, .1, .5, .5), 5, "has UVs near (12, 0)")):
-            uvs = "".join(
+                ((.1, 12, 12, .1, .5, .5), 2, "has UVs near (12, 0)")):
+            uvs = "vt .5 .5\n" * 6 if us is None else "".join(
                 f"vt {u} {.5 * (i in (2, 3, 5))}\n" for i, u in enumerate(us))
-            if code == 2:
-                uvs = "vt .5 .5\n" * 6
             cage = self.folder / "cage.obj"
             cage.write_text(faces.format(uvs))
-            result = self.run_program(
-                "bake", cage, EXEMPLAR, "-o", self.folder / "out.obj",
-                "--level", "1", "--scheme", "bilinear", "--resolution", "64")
-            self.assert_exit(result, code)
-            self.assertIn(words, result.stderr)
+            for how in "own", "auto":
+                result = self.run_program(
+                    "bake", cage, EXEMPLAR, "-o", self.folder / "out.obj",
+                    "--level", "1", "--scheme", "bilinear", "--resolution",
+                    "64", "--uvs", how)
+                self.assert_exit(result, code if how == "own" else 0)
+                self.assertIn(words, result.stderr)
+                self.assertEqual(
+                    "so an atlas is baked" in result.stderr, how == "auto")
 
     def test_map_bakes_too(self):
         self.assert_bakes("--bake", command="map")

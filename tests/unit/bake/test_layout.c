@@ -190,12 +190,13 @@ own_uvs_are_on_their_tiles(void **state)
     assert_int_equal(layout.tile_count, 2);
     assert_int_equal(layout.tiles[1], 1002);
     assert_int_equal(
-        lay_out_own(run, -0.5f, 0.0f, &layout), OSDTEX_ERROR_LIMIT);
-    assert_int_equal(lay_out_own(run, 9.5f, 0.0f, &layout), OSDTEX_ERROR_LIMIT);
+        lay_out_own(run, -0.5f, 0.0f, &layout), OSDTEX_ERROR_TOPOLOGY);
+    assert_int_equal(
+        lay_out_own(run, 9.5f, 0.0f, &layout), OSDTEX_ERROR_TOPOLOGY);
     assert_int_equal(lay_out_own(run, 8.0f, 899.0f, &layout), OSDTEX_OK);
     assert_int_equal(layout.tiles[0], 9999);
     assert_int_equal(
-        lay_out_own(run, 9.0f, 899.0f, &layout), OSDTEX_ERROR_LIMIT);
+        lay_out_own(run, 9.0f, 899.0f, &layout), OSDTEX_ERROR_TOPOLOGY);
     test_run_destroy(run);
 }
 
