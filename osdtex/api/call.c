@@ -15,6 +15,29 @@ now(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Seconds between calls of the host's progress from loops that know no end. */
+static const double PULSE_SECONDS = 0.05;
+
+static bool
+relay(void *user, const char *stage, double fraction)
+{
+    osdtex_context *context = user;
+
+    context->stage = stage;
+    context->fraction = fraction;
+    return context->options.progress(
+        context->options.progress_user, stage, fraction);
+}
+
+/* Says again how far it has come, so that the host can stop it. */
+static bool
+pulse(void *user)
+{
+    osdtex_context *context = user;
+
+    return relay(context, context->stage, context->fraction);
+}
+
 otx_status
 otx_call_begin(osdtex_context *context, const char *stage, otx_call *call)
 {
@@ -30,13 +53,18 @@ otx_call_begin(osdtex_context *context, const char *stage, otx_call *call)
                 .pool = context->pool,
                 .allocator = context->allocator,
                 .diagnostics = context->diagnostics,
-                .progress = context->options.progress,
-                .progress_user = context->options.progress_user,
+                .progress = context->options.progress ? relay : NULL,
+                .progress_user = context,
                 .outputs = context->outputs,
             },
         .scratch = otx_arena_here(context->scratch),
         .begun = now(),
     };
+    context->stage = stage;
+    context->fraction = 0.0;
+    otx_pool_watch(
+        context->pool, context->options.progress ? pulse : NULL, context,
+        PULSE_SECONDS);
     call->run.arena = otx_arena_create(context->allocator);
     if (!call->run.arena)
         return otx_fail_memory(&call->run, stage);
@@ -72,6 +100,9 @@ otx_call_end(otx_call *call, otx_status status, void *out)
     void *const nothing = NULL;
 
     finish(call);
+    /* A stop that no stage has noticed may have left gaps in its result. */
+    if (otx_pool_is_stopped(call->context->pool))
+        status = OSDTEX_ERROR_CANCELLED;
     if (status == OSDTEX_OK)
         return status;
     /* Handles are of many types; all pointers to them look alike. */

@@ -35,6 +35,9 @@ struct osdtex_context
     bool colour_is_open;
     otx_arena *outputs_arena; /* of the set below; NULL none */
     struct otx_atomic_file_set *outputs;
+    /* How far the call at hand has said it is. */
+    const char *stage;
+    double fraction;
     int32_t time_count;
     otx_call_time times[OTX_CALL_TIMES_MAX];
 };

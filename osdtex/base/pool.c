@@ -9,6 +9,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 enum
@@ -16,7 +17,8 @@ enum
     MAX_THREADS = 256,
     /* Looks at a counter before a thread goes to sleep, some ten microseconds:
      * solvers open their next loop sooner than a sleeper wakes. */
-    LOOKS = 4000
+    LOOKS = 4000,
+    WAIT_NANOSECONDS = 50000000 /* between looks of an owner that waits */
 };
 
 typedef struct loop
@@ -55,7 +57,99 @@ struct otx_pool
     _Atomic int64_t opened; /* loops so far */
     int32_t waiting;        /* for `done`, willing to help */
     bool quit;
+
+    otx_pool_watch_fn watch; /* NULL none */
+    void *watch_user;
+    double watch_seconds, watched; /* between looks; the last one */
+    _Atomic bool stopped;
 };
+
+/* -- stopping ------------------------------------------------------------- */
+
+static double
+now(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void
+otx_pool_watch(otx_pool *pool, otx_pool_watch_fn fn, void *user, double seconds)
+{
+    pool->watch = fn;
+    pool->watch_user = user;
+    pool->watch_seconds = seconds;
+    pool->watched = now();
+    atomic_store(&pool->stopped, false);
+}
+
+otx_status
+otx_pool_look(otx_pool *pool)
+{
+    if (pool->watch && !atomic_load(&pool->stopped))
+    {
+        const double t = now();
+
+        if (t - pool->watched >= pool->watch_seconds)
+        {
+            pool->watched = t;
+            if (!pool->watch(pool->watch_user))
+                atomic_store(&pool->stopped, true);
+        }
+    }
+    return atomic_load(&pool->stopped) ? OSDTEX_ERROR_CANCELLED : OSDTEX_OK;
+}
+
+bool
+otx_pool_is_stopped(const otx_pool *pool)
+{
+    return atomic_load(&pool->stopped);
+}
+
+bool
+otx_worker_is_stopped(const otx_worker *worker)
+{
+    return worker->pool && otx_pool_is_stopped(worker->pool);
+}
+
+/* Whether a thread is the one that made the pool. */
+static bool
+is_owner(const otx_worker *worker)
+{
+    return worker->pool && worker->index == 0;
+}
+
+otx_status
+otx_worker_look(const otx_worker *worker)
+{
+    if (is_owner(worker))
+        return otx_pool_look(worker->pool);
+    return otx_worker_is_stopped(worker) ? OSDTEX_ERROR_CANCELLED : OSDTEX_OK;
+}
+
+/* Waits for `done` a moment, so that the owner keeps asking. Under the lock,
+ * let go while it asks. */
+static void
+wait_for_done(otx_pool *pool, const otx_worker *worker)
+{
+    struct timespec until;
+
+    if (!pool->watch || !is_owner(worker))
+    {
+        pthread_cond_wait(&pool->done, &pool->mutex);
+        return;
+    }
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += WAIT_NANOSECONDS;
+    until.tv_sec += until.tv_nsec / 1000000000;
+    until.tv_nsec %= 1000000000;
+    pthread_cond_timedwait(&pool->done, &pool->mutex, &until);
+    pthread_mutex_unlock(&pool->mutex);
+    otx_pool_look(pool);
+    pthread_mutex_lock(&pool->mutex);
+}
 
 /* -- indices, under the lock or not as each says -------------------------- */
 
@@ -112,7 +206,7 @@ help_or_wait(otx_pool *pool, otx_worker *worker)
         return;
     }
     ++pool->waiting;
-    pthread_cond_wait(&pool->done, &pool->mutex);
+    wait_for_done(pool, worker);
     --pool->waiting;
 }
 
@@ -163,7 +257,9 @@ take_indices(loop *l, otx_worker *worker)
 
         if (l->order)
             wait_for_turn(l, index, worker);
-        status = l->body(l->context, index, worker);
+        status = otx_worker_look(worker);
+        if (status == OSDTEX_OK)
+            status = l->body(l->context, index, worker);
         otx_arena_release(worker->scratch, mark);
         if (status != OSDTEX_OK)
             record_failure(worker->pool, l, index, status);
@@ -207,7 +303,7 @@ close_loop(otx_pool *pool, loop *l, otx_worker *worker)
     pthread_mutex_lock(&pool->mutex);
     while (l->busy > 0)
         if (l->inner)
-            pthread_cond_wait(&pool->done, &pool->mutex);
+            wait_for_done(pool, worker);
         else
             help_or_wait(pool, worker);
     pthread_mutex_unlock(&pool->mutex);

@@ -29,6 +29,25 @@ otx_pool *otx_pool_create(otx_allocator *allocator, int32_t threads);
 void otx_pool_destroy(otx_pool *pool);
 int32_t otx_pool_threads(const otx_pool *pool);
 
+/* Has `fn` asked, at most every `seconds`, whether to go on: by the thread that
+ * made the pool, between the indices of its loops, while it waits for others,
+ * and at every otx_pool_look. Once it says no, loops run no further indices and
+ * return CANCELLED until a watch is set again. NULL: nobody is asked. */
+typedef bool (*otx_pool_watch_fn)(void *user);
+void otx_pool_watch(
+    otx_pool *pool, otx_pool_watch_fn fn, void *user, double seconds);
+
+/* Asks, if it is time. For loops of the thread that made the pool; costs a look
+ * at the clock. CANCELLED once it was said. */
+otx_status otx_pool_look(otx_pool *pool);
+
+/* Whether it was said. Any thread; for bodies that run for long, by worker. */
+bool otx_pool_is_stopped(const otx_pool *pool);
+bool otx_worker_is_stopped(const otx_worker *worker);
+
+/* otx_pool_look from within a body: the owner asks, the others are told. */
+otx_status otx_worker_look(const otx_worker *worker);
+
 /* Runs body(context, i, worker) for every i in [0, count). Waits for all.
  * Returns the failure of the lowest failing index. A body must not call it. */
 otx_status

@@ -294,6 +294,12 @@ otx_fail_memory(otx_run *run, const char *stage)
 }
 
 otx_status
+otx_loop_result(otx_run *run, const char *stage, otx_status status)
+{
+    return status == OSDTEX_ERROR_MEMORY ? otx_fail_memory(run, stage) : status;
+}
+
+otx_status
 otx_progress(otx_run *run, const char *stage, double fraction)
 {
     const osdtex_diagnostic said = {

@@ -85,8 +85,19 @@ void otx_note(
 /* `otx_fail` for an allocation that failed. */
 otx_status otx_fail_memory(otx_run *run, const char *stage);
 
+/* What a loop of the pool came to: with a finding where memory is out. */
+otx_status otx_loop_result(otx_run *run, const char *stage, otx_status status);
+
 /* Says how far a stage has come, in [0, 1]. OSDTEX_ERROR_CANCELLED when the
  * user asked to stop. Call it from the thread that owns the run. */
 otx_status otx_progress(otx_run *run, const char *stage, double fraction);
+
+/* The same without a word on how far: for loops that may last and know no end.
+ * CANCELLED likewise. Cheap enough for every thousandth step of anything. */
+static inline otx_status
+otx_pulse(otx_run *run)
+{
+    return otx_pool_look(run->pool);
+}
 
 #endif

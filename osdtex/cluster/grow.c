@@ -11,10 +11,13 @@
 
 #include <string.h>
 
+static const char STAGE[] = "cluster";
+
 enum
 {
     LLOYD_ROUNDS = 8,
-    OUTSIDE = -1, /* not a face of the region; all bits set */
+    SPREADS = LLOYD_ROUNDS + 1, /* times that all seeds spread */
+    OUTSIDE = -1,               /* not a face of the region; all bits set */
     UNREACHED = -2
 };
 
@@ -33,7 +36,22 @@ typedef struct growth
      * Looking through all faces for each seed would be quadratic. */
     otx_pqueue far;
     bool placing;
+    uint32_t steps;
 } growth;
+
+enum
+{
+    STEPS_PER_LOOK = 4096, /* faces reached between looks at the clock */
+    SEEDS_PER_WORD = 64    /* seeds placed between words on progress */
+};
+
+/* Lets the user stop, every few thousand steps. Who does not look at what comes
+ * of it is told at the next look. */
+static otx_status
+step(growth *g)
+{
+    return ++g->steps % STEPS_PER_LOOK == 0 ? otx_pulse(g->run) : OSDTEX_OK;
+}
 
 static bool
 reach(growth *g, otx_pqueue *queue, int32_t face, int32_t seed, double distance)
@@ -45,7 +63,7 @@ reach(growth *g, otx_pqueue *queue, int32_t face, int32_t seed, double distance)
 }
 
 /* Spreads from one seed to where it is nearer than what was there. */
-static bool
+static otx_status
 spread(growth *g, otx_pqueue *queue, int32_t seed)
 {
     const otx_level *level = g->dual->level;
@@ -53,11 +71,12 @@ spread(growth *g, otx_pqueue *queue, int32_t seed)
 
     queue->count = 0;
     if (!reach(g, queue, g->seeds[seed], seed, 0.0))
-        return false;
+        return OSDTEX_ERROR_MEMORY;
     while (otx_pqueue_pop(queue, &entry))
     {
         const int32_t face = entry.item;
 
+        OTX_TRY(step(g));
         if (entry.key > g->distance[face] || g->owner[face] != seed)
             continue;
         for (int32_t k = 0; k < otx_level_face_size(level, face); ++k)
@@ -71,10 +90,10 @@ spread(growth *g, otx_pqueue *queue, int32_t seed)
             if (g->owner[next] != UNREACHED && distance >= g->distance[next])
                 continue;
             if (!reach(g, queue, next, seed, distance))
-                return false;
+                return OSDTEX_ERROR_MEMORY;
         }
     }
-    return true;
+    return OSDTEX_OK;
 }
 
 static void
@@ -95,8 +114,11 @@ begin_placing(growth *g)
     g->placing = true;
     g->far.count = 0;
     for (int32_t i = 0; i < g->region->face_count; ++i)
+    {
+        step(g);
         if (!otx_pqueue_push(&g->far, -INFINITY, g->region->faces[i]))
             return false;
+    }
     return true;
 }
 
@@ -108,22 +130,30 @@ farthest(growth *g)
     otx_pqueue_entry entry;
 
     while (otx_pqueue_pop(&g->far, &entry))
+    {
+        step(g);
         if (-entry.key == g->distance[entry.item])
             return entry.item;
+    }
     return g->seeds[0];
 }
 
-static bool
+/* Spreads from the first seed alone. */
+static otx_status
+spread_first(growth *g, otx_pqueue *queue)
+{
+    return begin_placing(g) ? spread(g, queue, 0) : OSDTEX_ERROR_MEMORY;
+}
+
+static otx_status
 place_seeds(growth *g, otx_pqueue *queue, int32_t wanted)
 {
     /* The first is far from an arbitrary face, so that it lies at an end. */
     g->seeds[0] = g->region->faces[0];
     g->seed_count = 1;
-    if (!begin_placing(g) || !spread(g, queue, 0))
-        return false;
+    OTX_TRY(spread_first(g, queue));
     g->seeds[0] = farthest(g);
-    if (!begin_placing(g) || !spread(g, queue, 0))
-        return false;
+    OTX_TRY(spread_first(g, queue));
     while (g->seed_count < g->region->face_count)
     {
         const int32_t face = farthest(g);
@@ -133,12 +163,15 @@ place_seeds(growth *g, otx_pqueue *queue, int32_t wanted)
             break;
         if (g->distance[face] == 0.0)
             break;
+        if (g->seed_count % SEEDS_PER_WORD == 0)
+            OTX_TRY(otx_progress(
+                g->run, STAGE,
+                fmin(1.0, (double)g->seed_count / wanted) / SPREADS));
         g->seeds[g->seed_count] = face;
-        if (!spread(g, queue, g->seed_count++))
-            return false;
+        OTX_TRY(spread(g, queue, g->seed_count++));
     }
     g->placing = false;
-    return true;
+    return OSDTEX_OK;
 }
 
 /* Moves every seed to the face of its region nearest to the centroid. */
@@ -179,7 +212,7 @@ center_seeds(growth *g, otx_arena *scratch)
     return true;
 }
 
-static bool
+static otx_status
 lloyd(growth *g, otx_pqueue *queue, otx_arena *scratch)
 {
     for (int32_t round = 0; round < LLOYD_ROUNDS; ++round)
@@ -187,14 +220,19 @@ lloyd(growth *g, otx_pqueue *queue, otx_arena *scratch)
         const otx_arena_mark mark = otx_arena_here(scratch);
 
         if (!center_seeds(g, scratch))
-            return false;
+            return OSDTEX_ERROR_MEMORY;
         otx_arena_release(scratch, mark);
         forget(g);
         for (int32_t s = 0; s < g->seed_count; ++s)
-            if (!spread(g, queue, s))
-                return false;
+        {
+            if (s % SEEDS_PER_WORD == SEEDS_PER_WORD - 1)
+                OTX_TRY(otx_progress(
+                    g->run, STAGE,
+                    (1 + round + (double)s / g->seed_count) / SPREADS));
+            OTX_TRY(spread(g, queue, s));
+        }
     }
-    return true;
+    return OSDTEX_OK;
 }
 
 /* The regions as clusters, in seed order; a seed may have lost everything. */
@@ -208,7 +246,7 @@ collect(growth *g, otx_cluster_list *out)
 
     out->clusters = OTX_NEW(run->arena, otx_cluster, n);
     if (!faces || !first || !out->clusters)
-        return otx_fail_memory(run, "cluster");
+        return otx_fail_memory(run, STAGE);
     for (int32_t i = 0; i < g->region->face_count; ++i)
         ++first[g->owner[g->region->faces[i]] + 1];
     for (int32_t s = 0; s < n; ++s)
@@ -243,11 +281,11 @@ grow_regions(
     g.distance = OTX_NEW(run->scratch, double, n);
     g.seeds = OTX_NEW(run->scratch, int32_t, region->face_count);
     if (!g.owner || !g.distance || !g.seeds)
-        return otx_fail_memory(run, "cluster");
+        return otx_fail_memory(run, STAGE);
     memset(g.owner, OUTSIDE, (size_t)n * sizeof *g.owner);
     g.far = otx_pqueue_make(run->scratch);
-    if (!place_seeds(&g, &queue, wanted) || !lloyd(&g, &queue, run->scratch))
-        return otx_fail_memory(run, "cluster");
+    OTX_TRY(otx_loop_result(run, STAGE, place_seeds(&g, &queue, wanted)));
+    OTX_TRY(otx_loop_result(run, STAGE, lloyd(&g, &queue, run->scratch)));
     return collect(&g, out);
 }
 
@@ -296,7 +334,7 @@ without_holes(
     int32_t *faces = OTX_NEW(run->scratch, int32_t, region->face_count);
 
     if (!faces)
-        return otx_fail_memory(run, "cluster");
+        return otx_fail_memory(run, STAGE);
     *out = (otx_cluster){region->level, 0, faces, 0.0};
     for (int32_t i = 0; i < region->face_count; ++i)
     {
@@ -324,7 +362,7 @@ append_faces(
         if (!append(
                 run, out, capacity,
                 (otx_cluster){region->level, 1, face, dual->areas[*face]}))
-            return otx_fail_memory(run, "cluster");
+            return otx_fail_memory(run, STAGE);
     }
     return OSDTEX_OK;
 }
@@ -362,7 +400,7 @@ grow_discs(
         else if (!disc)
             OTX_TRY(grow_discs(run, dual, c, 2, bend, out, capacity, member));
         else if (!append(run, out, capacity, *c))
-            return otx_fail_memory(run, "cluster");
+            return otx_fail_memory(run, STAGE);
     }
     return OSDTEX_OK;
 }
@@ -379,7 +417,7 @@ otx_cluster_grow(
 
     *out = (otx_cluster_list){0};
     if (!member)
-        return otx_fail_memory(run, "cluster");
+        return otx_fail_memory(run, STAGE);
     OTX_TRY(without_holes(run, dual, region, &solid));
     if (solid.face_count > 0)
         OTX_TRY(grow_discs(

@@ -144,10 +144,11 @@ sample_seams(otx_run *run, search *s, otx_seam_list *out)
 {
     s->samples = OTX_NEW(run->arena, float, s->sample_first[out->edge_count]);
     out->samples = s->samples;
-    if (!s->samples ||
-        otx_pool_for(run->pool, out->edge_count, sample_seam, s) != OSDTEX_OK)
+    if (!s->samples)
         return otx_fail_memory(run, "measure");
-    return OSDTEX_OK;
+    return otx_loop_result(
+        run, "measure",
+        otx_pool_for(run->pool, out->edge_count, sample_seam, s));
 }
 
 /* Fills `covered` and the arrays of the list at their largest. */

@@ -528,9 +528,10 @@ look_up_all(
     quantiles[0] = quantiles[1] = 0.0;
     l->seeds = seeds;
     l->distances = OTX_NEW(run->scratch, double, count);
-    if (!l->distances ||
-        otx_pool_for(run->pool, count, look_up, l) != OSDTEX_OK)
+    if (!l->distances)
         return otx_fail_memory(run, "measure");
+    OTX_TRY(otx_loop_result(
+        run, "measure", otx_pool_for(run->pool, count, look_up, l)));
     if (count == 0)
         return OSDTEX_OK;
     qsort(l->distances, (size_t)count, sizeof(double), compare_doubles);

@@ -486,10 +486,10 @@ sweep(state *s, otx_cut_stats *stats)
         OTX_TRY(otx_progress(
             s->run, stage,
             ((double)s->sweep * s->offer_count + first) / steps));
-        if (otx_pool_for_ordered(
-                s->run->pool, &s->order.places, first, end, expand, s) !=
-            OSDTEX_OK)
-            return otx_fail_memory(s->run, stage);
+        OTX_TRY(otx_loop_result(
+            s->run, stage,
+            otx_pool_for_ordered(
+                s->run->pool, &s->order.places, first, end, expand, s)));
     }
     for (int32_t p = 0; p < s->offer_count; ++p)
     {

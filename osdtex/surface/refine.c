@@ -66,7 +66,7 @@ turn_of(const refinement *r, int32_t level)
 }
 
 static otx_status
-eval_points(const refinement *r)
+eval_points(const refinement *r, const otx_worker *worker)
 {
     const float *from = r->cage->points;
 
@@ -74,14 +74,16 @@ eval_points(const refinement *r)
     {
         float *to = r->point_turns[turn_of(r, level)];
 
+        OTX_TRY(otx_worker_look(worker));
         OTX_TRY(otx_osd_refine_points(r->osd, level, from, to));
         from = to;
     }
+    OTX_TRY(otx_worker_look(worker));
     return otx_osd_limit_points(r->osd, from, r->points, r->tangents);
 }
 
 static otx_status
-eval_uvs(const refinement *r)
+eval_uvs(const refinement *r, const otx_worker *worker)
 {
     const float *from = r->cage->uvs;
 
@@ -89,6 +91,7 @@ eval_uvs(const refinement *r)
     {
         float *to = r->uv_turns[turn_of(r, level)];
 
+        OTX_TRY(otx_worker_look(worker));
         OTX_TRY(otx_osd_refine_uvs(r->osd, level, from, to));
         from = to;
     }
@@ -102,13 +105,12 @@ run_task(void *context, int64_t index, otx_worker *worker)
     const task *t = &r->tasks[index];
     const otx_osd_relations *relations = &r->relations[t->level];
 
-    (void)worker;
     switch (t->kind)
     {
     case TASK_POINTS:
-        return eval_points(r);
+        return eval_points(r, worker);
     case TASK_UVS:
-        return eval_uvs(r);
+        return eval_uvs(r, worker);
     case TASK_PREFIX:
         return otx_osd_check_prefix(r->osd, t->level);
     case TASK_FACES:
@@ -444,7 +446,9 @@ refine(otx_run *run, const otx_cage *cage, refinement *r, otx_surface *out)
     OTX_TRY(refine_topology(run, r));
     if (!allocate(run, r) || !list_tasks(run->scratch, r))
         return OSDTEX_ERROR_MEMORY;
+    OTX_TRY(otx_progress(run, STAGE, 0.6));
     OTX_TRY(otx_pool_for(run->pool, r->task_count, run_task, r));
+    OTX_TRY(otx_progress(run, STAGE, 0.8));
     fill_ancestors(r);
     if (r->depth > r->level)
         OTX_TRY(keep_level_0(run, r));

@@ -124,10 +124,11 @@ otx_offers_make(otx_mapper *m)
     const int32_t given = m->given ? m->given->patch_count : 0;
 
     m->offers = OTX_NEW(m->run->arena, otx_offer, m->patch_count);
-    if (!m->offers ||
-        otx_pool_for(m->run->pool, m->patch_count - given, make_offer, m) !=
-            OSDTEX_OK)
+    if (!m->offers)
         return otx_fail_memory(m->run, "cut");
+    OTX_TRY(otx_loop_result(
+        m->run, "cut",
+        otx_pool_for(m->run->pool, m->patch_count - given, make_offer, m)));
     if (given > 0)
         OTX_TRY(otx_given_offers(m));
     return OSDTEX_OK;
