@@ -124,6 +124,8 @@ is_owner(const otx_worker *worker)
 otx_status
 otx_worker_look(const otx_worker *worker)
 {
+    if (!worker)
+        return OSDTEX_OK;
     if (is_owner(worker))
         return otx_pool_look(worker->pool);
     return otx_worker_is_stopped(worker) ? OSDTEX_ERROR_CANCELLED : OSDTEX_OK;

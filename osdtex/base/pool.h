@@ -45,7 +45,8 @@ otx_status otx_pool_look(otx_pool *pool);
 bool otx_pool_is_stopped(const otx_pool *pool);
 bool otx_worker_is_stopped(const otx_worker *worker);
 
-/* otx_pool_look from within a body: the owner asks, the others are told. */
+/* otx_pool_look from within a body: the owner asks, the others are told. NULL:
+ * goes on. */
 otx_status otx_worker_look(const otx_worker *worker);
 
 /* Runs body(context, i, worker) for every i in [0, count). Waits for all.

@@ -141,7 +141,12 @@ count_products(scene *s, int32_t index)
     int64_t rows = 0;
     counted c = {&s->rigids[index], &rows};
     const otx_rigid_system system = {
-        n, apply_counted, &c, diagonal, 60, 1e-3, NULL};
+        .count = n,
+        .apply = apply_counted,
+        .context = &c,
+        .diagonal = diagonal,
+        .rounds = 60,
+        .tolerance = 1e-3};
 
     if (!b || !diagonal || !flat)
         return OSDTEX_ERROR_MEMORY;

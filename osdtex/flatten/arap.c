@@ -6,7 +6,8 @@
 
 enum
 {
-    CG_ROUNDS = 60
+    CG_ROUNDS = 60,
+    STEPS_PER_LOOK = 4096 /* faces unfolded between looks at the clock */
 };
 
 static const double CG_TOLERANCE = 1e-3;
@@ -133,6 +134,7 @@ unfold(
     const otx_dual *leaves = request->leaves;
     otx_pqueue queue = otx_pqueue_make(scratch);
     otx_pqueue_entry entry;
+    uint32_t steps = 0;
     uint8_t *placed = OTX_ZNEW(scratch, uint8_t, chart->vert_count);
     uint8_t *done = OTX_ZNEW(scratch, uint8_t, chart->face_count);
     otx_vec2 *shape = OTX_NEW(scratch, otx_vec2, largest_face(chart));
@@ -146,6 +148,8 @@ unfold(
 
         if (done[entry.item])
             continue;
+        if (++steps % STEPS_PER_LOOK == 0)
+            OTX_TRY(otx_worker_look(request->worker));
         done[entry.item] = 1;
         project_face(
             chart, request->surface,
@@ -194,7 +198,8 @@ otx_arap_flatten(
         .context = &rigid,
         .diagonal = diagonal,
         .rounds = CG_ROUNDS,
-        .tolerance = CG_TOLERANCE};
+        .tolerance = CG_TOLERANCE,
+        .worker = request->worker};
 
     if (!b || !diagonal)
         return OSDTEX_ERROR_MEMORY;

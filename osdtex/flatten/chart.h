@@ -51,13 +51,15 @@ typedef struct otx_chart_request
     double collar;          /* width, texels */
     double bend;            /* how fast a bend uses the collar up */
     int32_t rounds;         /* of local/global relaxation */
+    /* Who builds: asked now and then whether to stop. NULL: nobody. */
+    const otx_worker *worker;
 } otx_chart_request;
 
 /* Builds the chart of `core` (ascending leaf faces that form a disc) in
  * `arena`. The collar grows face by face, nearest first, and only while the
  * whole stays a disc. Runs in any thread: `space` and the arenas are its own.
  *
- * MEMORY, without a finding. */
+ * MEMORY, without a finding; CANCELLED. */
 otx_status otx_chart_build(
     const otx_chart_request *request, const int32_t *core, int32_t core_count,
     otx_chart_space *space, otx_arena *scratch, otx_arena *arena,

@@ -364,7 +364,7 @@ over_blocks(solver *s, otx_pool_body body)
 
 /* A Laplacian does not see translations; starting from x, conjugate gradients
  * leave them as they are. */
-static void
+static otx_status
 iterate(solver *s)
 {
     const double tolerance = s->system->tolerance;
@@ -382,13 +382,17 @@ iterate(solver *s)
         double next;
 
         if (!(rz > tolerance * tolerance * first) || !(rz > 1e-18))
-            return;
+            return OSDTEX_OK;
+        OTX_TRY(
+            s->system->pool ? otx_pool_look(s->system->pool)
+                            : otx_worker_look(s->system->worker));
         over_blocks(s, turn_block);
         s->step = rz / over_blocks(s, apply_block);
         next = over_blocks(s, step_block);
         s->turn = next / rz;
         rz = next;
     }
+    return OSDTEX_OK;
 }
 
 otx_status
@@ -410,7 +414,7 @@ otx_rigid_solve(
     if (!s.r || !s.z || !s.p || !s.ap || !s.sums)
         return OSDTEX_ERROR_MEMORY;
     memcpy(s.r, b, bytes);
-    iterate(&s);
+    OTX_TRY(iterate(&s));
     otx_arena_release(scratch, mark);
     return OSDTEX_OK;
 }

@@ -93,9 +93,10 @@ typedef struct otx_rigid_system
     int32_t rounds;           /* at most */
     double tolerance;         /* of the first residual */
     otx_pool *pool; /* to share the rows; NULL: this thread. Same bits. */
+    const otx_worker *worker; /* without a pool: asked whether to stop; NULL */
 } otx_rigid_system;
 
-/* MEMORY, without a finding. */
+/* MEMORY, without a finding; CANCELLED. */
 otx_status otx_rigid_solve(
     otx_arena *scratch, const otx_rigid_system *system, const otx_vec2 *b,
     otx_vec2 *x);

@@ -217,15 +217,22 @@ otx_elastic_find_step(otx_elastic *e, otx_vec2 **step)
     const int64_t tasks =
         (s->seam_count + OTX_ELASTIC_SEAMS - 1) / OTX_ELASTIC_SEAMS;
     const otx_rigid_system system = {
-        s->count, apply, e, e->diagonal, CG_ROUNDS, CG_TOLERANCE, e->run->pool};
+        .count = s->count,
+        .apply = apply,
+        .context = e,
+        .diagonal = e->diagonal,
+        .rounds = CG_ROUNDS,
+        .tolerance = CG_TOLERANCE,
+        .pool = e->run->pool};
 
     OTX_TRY(otx_pool_for(e->run->pool, tasks, linearise_seams, e));
     prepare_system(e);
     *step = OTX_ZNEW(e->run->scratch, otx_vec2, s->count);
-    if (!*step ||
-        otx_rigid_solve(e->run->scratch, &system, e->b, *step) != OSDTEX_OK)
+    if (!*step)
         return otx_fail_memory(e->run, "relax");
-    return OSDTEX_OK;
+    return otx_loop_result(
+        e->run, "relax",
+        otx_rigid_solve(e->run->scratch, &system, e->b, *step));
 }
 
 /* ---- which seams end where ---- */

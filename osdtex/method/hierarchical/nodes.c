@@ -264,6 +264,7 @@ flatten_node(void *context, int64_t index, otx_worker *worker)
             COLLAR_LEAVES * m->texels * m->surface->mean_edge_length),
         .bend = BEND,
         .rounds = 5,
+        .worker = worker,
     };
 
     node->arena = otx_arena_create(m->run->allocator);

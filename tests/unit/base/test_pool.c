@@ -205,6 +205,70 @@ an_order_is_kept(void **state)
         }
 }
 
+static bool
+count_down(void *user)
+{
+    int *left = user;
+
+    return --*left > 0;
+}
+
+static otx_status
+count_runs(void *context, int64_t index, otx_worker *worker)
+{
+    int *runs = context;
+
+    runs[index] = 1;
+    return otx_worker_look(worker);
+}
+
+/* Once the watch says no, nothing runs until there is another one. */
+static void
+a_watch_stops_loops(void **state)
+{
+    (void)state;
+    for (int32_t threads = 1; threads <= 4; ++threads)
+    {
+        otx_run *run = test_run_create_with(NULL, threads);
+        int runs[COUNT] = {0}, left = 3;
+
+        otx_pool_watch(run->pool, count_down, &left, 0.0);
+        assert_int_equal(otx_pulse(run), OSDTEX_OK);
+        assert_int_equal(otx_pulse(run), OSDTEX_OK);
+        assert_int_equal(otx_pulse(run), OSDTEX_ERROR_CANCELLED);
+        assert_true(otx_pool_is_stopped(run->pool));
+        assert_int_equal(
+            otx_pool_for(run->pool, COUNT, count_runs, runs),
+            OSDTEX_ERROR_CANCELLED);
+        for (int i = 0; i < COUNT; ++i)
+            assert_int_equal(runs[i], 0);
+        otx_pool_watch(run->pool, NULL, NULL, 0.0);
+        assert_int_equal(
+            otx_pool_for(run->pool, COUNT, count_runs, runs), OSDTEX_OK);
+        for (int i = 0; i < COUNT; ++i)
+            assert_int_equal(runs[i], 1);
+        test_run_destroy(run);
+    }
+}
+
+/* Whoever made the pool asks between its indices. */
+static void
+a_watch_is_asked_by_the_owner(void **state)
+{
+    otx_run *run = test_run_create_with(NULL, 1);
+    int runs[COUNT] = {0}, left = 100, count = 0;
+
+    (void)state;
+    otx_pool_watch(run->pool, count_down, &left, 0.0);
+    assert_int_equal(
+        otx_pool_for(run->pool, COUNT, count_runs, runs),
+        OSDTEX_ERROR_CANCELLED);
+    for (int i = 0; i < COUNT; ++i)
+        count += runs[i];
+    assert_in_range(count, 40, 60);
+    test_run_destroy(run);
+}
+
 int
 main(void)
 {
@@ -212,6 +276,8 @@ main(void)
         cmocka_unit_test(every_index_runs_once_at_any_thread_count),
         cmocka_unit_test(loops_may_open_loops),
         cmocka_unit_test(an_order_is_kept),
+        cmocka_unit_test(a_watch_stops_loops),
+        cmocka_unit_test(a_watch_is_asked_by_the_owner),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -143,6 +143,44 @@ growing_depends_on_nothing_but_the_mesh(void **state)
     test_run_destroy(b);
 }
 
+static bool
+count_down(void *user)
+{
+    int *left = user;
+
+    return --*left > 0;
+}
+
+/* Growth asks, wherever it is, whether to go on. */
+static void
+growth_can_be_stopped(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_surface s = sheet_create(run, 200, 200, SHEET_FLAT);
+    const otx_dual dual = sheet_dual(run, &s, 0);
+    const otx_cluster all = sheet_all(run, &s, 0);
+    otx_status status = OSDTEX_ERROR_CANCELLED;
+    otx_cluster_list list;
+    int stops = 0;
+
+    (void)state;
+    while (status != OSDTEX_OK)
+    {
+        const otx_arena_mark mark = otx_arena_here(run->scratch);
+        int left = 4 * ++stops;
+
+        otx_pool_watch(run->pool, count_down, &left, 0.0);
+        status =
+            otx_cluster_grow(run, &dual, &all, s.area / 30.0, 1, 1.0, &list);
+        if (status != OSDTEX_OK)
+            assert_int_equal(status, OSDTEX_ERROR_CANCELLED);
+        otx_arena_release(run->scratch, mark);
+    }
+    assert_true(stops > 10);
+    assert_int_equal(otx_diagnostics_count(run->diagnostics), 0);
+    test_run_destroy(run);
+}
+
 int
 main(void)
 {
@@ -152,6 +190,7 @@ main(void)
         cmocka_unit_test(at_least_as_many_as_the_minimum),
         cmocka_unit_test(borders_follow_a_fold),
         cmocka_unit_test(growing_depends_on_nothing_but_the_mesh),
+        cmocka_unit_test(growth_can_be_stopped),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -115,7 +115,13 @@ the_solver_solves(void **state)
     otx_vec2 flat[VERTS], b[VERTS], out[VERTS], diagonal[VERTS];
     const otx_rigid rigid = build(run, 0.8, flat);
     const otx_rigid_system system = {
-        VERTS, apply, &rigid, diagonal, 500, 1e-8, run->pool};
+        .count = VERTS,
+        .apply = apply,
+        .context = &rigid,
+        .diagonal = diagonal,
+        .rounds = 500,
+        .tolerance = 1e-8,
+        .pool = run->pool};
 
     (void)state;
     for (int32_t v = 0; v < VERTS; ++v)
