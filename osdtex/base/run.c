@@ -179,12 +179,21 @@ is_again(const finding *kept, const finding *f, const char *message)
            strcmp(kept->public.message, message) == 0;
 }
 
-/* Keeps a finding; dropped without a word when memory is out or the list is
- * full, since the status that follows is what matters then. */
+/* Tells the listener of the call's error from where it needs no memory. */
+static void
+tell_error(otx_diagnostics *d, const char *message)
+{
+    if (d->listener && strcmp(d->fault.message, message) == 0)
+        d->listener(d->listener_user, &d->fault.public);
+}
+
+/* Keeps a finding. When memory is out or the list is full it is dropped, but
+ * the error that ends a call is told all the same. */
 static void
 keep(otx_diagnostics *d, finding f)
 {
     finding *alike = find_alike(d, &f);
+    const char *message = f.public.message;
 
     if (alike)
     {
@@ -192,14 +201,20 @@ keep(otx_diagnostics *d, finding f)
         return;
     }
     if (d->count == MAX_FINDINGS)
+    {
+        tell_error(d, message);
         return;
+    }
     f.public.message = otx_arena_strdup(d->arena, f.public.message);
     f.public.marked = otx_arena_strdup(d->arena, f.public.marked);
     f.public.stage = otx_arena_strdup(d->arena, f.public.stage);
     if (f.public.file)
         f.public.file = otx_arena_strdup(d->arena, f.public.file);
     if (!f.public.message || !f.public.marked || !f.public.stage)
+    {
+        tell_error(d, message);
         return;
+    }
     d->findings[d->count++] = f;
     if (d->listener)
         d->listener(d->listener_user, &d->findings[d->count - 1].public);

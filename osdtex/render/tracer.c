@@ -63,9 +63,11 @@ fail_embree(otx_run *run, otx_tracer *tracer)
     if (atomic_load(&tracer->error) == RTC_ERROR_OUT_OF_MEMORY)
         return otx_fail_memory(run, STAGE);
     return otx_fail(
-        run, OSDTEX_ERROR_NUMERIC, STAGE, OTX_NOWHERE,
-        "Embree could not prepare the model (%s); check its installation",
-        tracer->message[0] ? tracer->message : "no reason given");
+        run, OSDTEX_ERROR_INTERNAL, STAGE, OTX_NOWHERE,
+        "Embree could not prepare the model (error %d%s%s); is there memory for "
+        "it and its threads?",
+        (int)atomic_load(&tracer->error), tracer->message[0] ? ": " : "",
+        tracer->message);
 }
 
 static int32_t
@@ -189,7 +191,11 @@ otx_tracer_create(otx_run *run, const otx_scene *scene, otx_tracer **out)
     /* One building thread: the caller's pool decides how many there are. */
     tracer->device = rtcNewDevice("threads=1");
     if (!tracer->device)
+    {
+        /* The error of a device that was not made is the thread's. */
+        atomic_store(&tracer->error, (int)rtcGetDeviceError(NULL));
         return fail_embree(run, tracer);
+    }
     rtcSetDeviceErrorFunction(tracer->device, remember_error, tracer);
     tracer->tree = rtcNewScene(tracer->device);
     if (!tracer->tree)
