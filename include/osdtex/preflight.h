@@ -27,6 +27,8 @@ osdtex_job_none(void)
     job.size = sizeof job;
     return job;
 }
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void osdtex_job_init(osdtex_job *out, size_t bytes);
 
 /* What a job will come to. */
 typedef struct osdtex_forecast

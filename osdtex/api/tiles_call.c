@@ -6,6 +6,7 @@
 #include "method/tile/tile.h"
 #include "tiling/tileset.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,7 +15,8 @@ static const char STAGE[] = "tiles";
 /* The edges of the caller as the stage takes them. */
 static otx_status
 choose_edges(
-    otx_run *run, const osdtex_tiles_options *options, otx_tileset_options *out)
+    otx_run *run, const osdtex_exemplar_info *info,
+    const osdtex_tiles_options *options, otx_tileset_options *out)
 {
     otx_tileset_edge *edges;
 
@@ -29,6 +31,15 @@ choose_edges(
     {
         const osdtex_tiles_edge *e = &options->edges[i];
 
+        /* Written so that NaN is refused, too. */
+        if (!(e->x >= 0.0 && e->x <= info->width && e->y >= 0.0 &&
+              e->y <= info->height && isfinite(e->angle) &&
+              e->length <= hypot(info->width, info->height)))
+            return otx_fail(
+                run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+                "edge template %d leaves the picture, which is %d x %d texels: "
+                "its middle is at (%g, %g), its length %g",
+                i + 1, info->width, info->height, e->x, e->y, e->length);
         edges[i] = (otx_tileset_edge){{e->x, e->y}, e->angle, e->length};
     }
     out->edges = edges;
@@ -38,7 +49,8 @@ choose_edges(
 
 static otx_status
 choose_options(
-    otx_run *run, const osdtex_tiles_options *o, otx_tileset_options *out)
+    otx_run *run, const osdtex_exemplar_info *info,
+    const osdtex_tiles_options *o, otx_tileset_options *out)
 {
     *out = (otx_tileset_options){
         .boundaries = o->boundaries,
@@ -53,7 +65,7 @@ choose_options(
             {o->background[0], o->background[1], o->background[2],
              o->background[3]},
     };
-    return choose_edges(run, o, out);
+    return choose_edges(run, info, o, out);
 }
 
 static int
@@ -131,7 +143,7 @@ write_tiles(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "no exemplar, no path, or no settings are given");
     run->seed = ours.seed;
-    OTX_TRY(choose_options(run, &ours, &how));
+    OTX_TRY(choose_options(run, &exemplar->info, &ours, &how));
     if (surface)
         OTX_TRY(choose_names(run, &exemplar->exemplar, surface, &ours, &how));
     OTX_TRY(otx_tileset_make(run, &exemplar->exemplar, &how, &made));

@@ -197,7 +197,9 @@ keep(otx_diagnostics *d, finding f)
 
     if (alike)
     {
-        alike->public.count += !is_again(alike, &f, message);
+        /* An error is each time another call that failed. */
+        alike->public.count += f.public.severity == OSDTEX_SEVERITY_ERROR ||
+                               !is_again(alike, &f, message);
         return;
     }
     if (d->count == MAX_FINDINGS)

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static void
 print_version(void)
@@ -50,6 +51,7 @@ int
 main(int argc, char **argv)
 {
     const otx_command *command;
+    int code;
 
     if (argc < 2)
     {
@@ -70,5 +72,10 @@ main(int argc, char **argv)
     command = otx_command_find(argv[1]);
     if (!command)
         return otx_command_refuse(argv[1]);
-    return flush(run(command, argc - 1, argv + 1));
+    code = flush(run(command, argc - 1, argv + 1));
+    /* Where memory is out, libraries that wait for their threads at exit may
+     * wait for ever. */
+    if (code == OTX_EXIT_LIMIT)
+        _exit(code);
+    return code;
 }

@@ -250,6 +250,13 @@ otx_map_request_parse(
             "--preview writes a .png or .exr, not '%s'", r->preview);
         return false;
     }
+    if (r->report && strcmp(r->report, "-") == 0)
+    {
+        otx_session_refuse(
+            "--json-report writes a file that appears with the others, not to "
+            "the standard output: --json-report NAME.json");
+        return false;
+    }
     return cage_comes_first(r) && pictures_are_apart(r);
 }
 

@@ -171,6 +171,7 @@ put_finding(void *user, const osdtex_diagnostic *d)
 {
     otx_session *session = user;
 
+    session->error_is_told |= d->severity == OSDTEX_SEVERITY_ERROR;
     if (session->quiet && d->severity != OSDTEX_SEVERITY_ERROR)
         return;
     wipe_bar(session);
@@ -328,7 +329,12 @@ otx_session_begin(otx_session *session, const otx_flag_values *values)
         return true;
     osdtex_context_destroy(session->context);
     fprintf(
-        stderr, "osdtex: error: no context: %s\n", osdtex_status_name(status));
+        stderr, "osdtex: error: %s%s\n",
+        status == OSDTEX_ERROR_MEMORY
+            ? "there is no memory or no thread to begin with; raise the limit "
+              "(ulimit -v), or lower --threads"
+            : "no context: ",
+        status == OSDTEX_ERROR_MEMORY ? "" : osdtex_status_name(status));
     session->exit_code = OTX_EXIT_LIMIT;
     return false;
 }
@@ -374,6 +380,8 @@ otx_session_end(otx_session *session, osdtex_status status)
     put_repeats(session);
     osdtex_context_destroy(session->context);
     session->context = NULL;
+    if (status == OSDTEX_ERROR_MEMORY && !session->error_is_told)
+        fputs("osdtex: error: memory is out; nothing was written\n", stderr);
     if (status != OSDTEX_ERROR_CANCELLED)
         return exit_code_of(status);
     fputs("osdtex: stopped; nothing was written\n", stderr);

@@ -11,10 +11,11 @@ typedef struct otx_session
     bool quiet, verbose;
     bool is_terminal;  /* stderr is */
     bool bar_is_shown; /* and must be wiped before a line */
-    double begun;      /* seconds */
-    double lap;        /* when the last lap ended */
-    double shown;      /* when progress was last shown */
-    char stage[32];    /* whose progress was last shown */
+    bool error_is_told;
+    double begun;   /* seconds */
+    double lap;     /* when the last lap ended */
+    double shown;   /* when progress was last shown */
+    char stage[32]; /* whose progress was last shown */
     int percent;
     int exit_code; /* of the usage error that otx_session_begin found */
 } otx_session;

@@ -7,6 +7,7 @@
 #include "file/text.h"
 
 #include "bridge/charconv.h"
+#include "file/foreign.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -133,6 +134,7 @@ check_text(otx_text *text)
 {
     static const char little[] = {'\xFF', '\xFE'}, big[] = {'\xFE', '\xFF'};
     const size_t size = (size_t)(text->end - text->bytes);
+    const char *kind;
 
     if (size == 0)
         return otx_fail(
@@ -143,6 +145,14 @@ check_text(otx_text *text)
         return otx_fail(
             text->run, OSDTEX_ERROR_FORMAT, text->stage,
             otx_where_file(text->name), "the text is UTF-16; save it as UTF-8");
+    kind = otx_foreign_kind(text->bytes, size);
+    if (kind)
+        return otx_fail(
+            text->run, OSDTEX_ERROR_SUPPORT, text->stage,
+            otx_where_file(text->name),
+            "this is %s, which is not read here; cages are OBJ files: export "
+            "it as one",
+            kind);
     if (memchr(text->bytes, '\0', size))
         return otx_fail(
             text->run, OSDTEX_ERROR_FORMAT, text->stage,

@@ -120,6 +120,8 @@ class Tiles(ProgramTest):
                 ("cut or ramp", ("--blend", "soft")),
                 ("X,Y,ANGLE", ("--edge-template", "1,2")),
                 ("leaves the picture", ("--edge-template", "-900,5,0")),
+                ("leaves the picture", ("--edge-template", "1,1,1,1e9")),
+                ("leaves the picture", ("--edge-template", "1e300,1,1")),
                 ("8 gutters", ("--tile-size", "32", "--gutter", "16")),
                 ("larger picture", ("--tile-size", "2048"))):
             result = self.run_program(
