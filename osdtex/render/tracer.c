@@ -64,7 +64,8 @@ fail_embree(otx_run *run, otx_tracer *tracer)
         return otx_fail_memory(run, STAGE);
     return otx_fail(
         run, OSDTEX_ERROR_INTERNAL, STAGE, OTX_NOWHERE,
-        "Embree could not prepare the model (error %d%s%s); is there memory for "
+        "Embree could not prepare the model (error %d%s%s); is there memory "
+        "for "
         "it and its threads?",
         (int)atomic_load(&tracer->error), tracer->message[0] ? ": " : "",
         tracer->message);

@@ -31,4 +31,4 @@ gunzip -c "$wanted" >"$work/old.abi"
 status=0
 abidiff "$work/old.abi" "$work/new.abi" || status=$?
 # 4: something changed; 8: so that programs break; 1, 2: it did not work.
-[ $((status & ~4)) = 0 ]
+test "$((status & ~4))" = 0

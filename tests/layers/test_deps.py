@@ -28,6 +28,7 @@ PACKAGES = {
     "squeue": "slurm-wlm", "node": "nodejs", "nm": "binutils",
     "pkg-config": "pkgconf", "ctest": "cmake", "ninja": "ninja-build",
     "c++": "g++", "clang++": "clang", "cc": "gcc", "git": "git",
+    "abidiff": "abigail-tools", "abidw": "abigail-tools", "objdump": "binutils",
 }
 # Of packages that every Debian has (Essential, or apt itself).
 ESSENTIAL = set(
@@ -36,7 +37,7 @@ ESSENTIAL = set(
     "printf pwd readlink realpath rm rmdir sed seq sh sleep sort stat tail tar "
     "tee test timeout touch tr true umount uname uniq unshare wc xargs bash "
     "chroot ln apt-cache setpriv setsid nohup truncate mkfifo dd md5sum "
-    "sha256sum stdbuf yes".split())
+    "sha256sum stdbuf yes gzip gunzip".split())
 # Comes with Blender's own Python.
 INSIDE_BLENDER = {"mathutils", "bpy"}
 # Instead of what is in a list, on other systems.

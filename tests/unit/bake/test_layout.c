@@ -90,7 +90,8 @@ a_density_opens_tiles(void **state)
     test_run_destroy(run);
 }
 
-/* 128 texels hold 64 blocks of the least size; no texels to a unit are found. */
+/* 128 texels hold 64 blocks of the least size; no texels to a unit are found.
+ */
 static void
 more_faces_than_a_tile_holds_are_told(void **state)
 {
