@@ -24,6 +24,8 @@ string(SUBSTRING ${hash} 0 12 hash)
 # checkout of ours.
 set(tree ${VERSION})
 if(GIT AND EXISTS ${SOURCE}/.git)
+  # A build takes no lock of the tree that somebody else commits in.
+  set(ENV{GIT_OPTIONAL_LOCKS} 0)
   execute_process(
     COMMAND ${GIT} -C ${SOURCE} describe --always --tags --dirty
     OUTPUT_VARIABLE described OUTPUT_STRIP_TRAILING_WHITESPACE
