@@ -51,7 +51,7 @@ struct osdtex_mapping
      * sources, compared at as many texels to a unit. */
     const otx_exemplar *exemplars;
     otx_mapping mapping;
-    otx_map_stats stats;
+    otx_figures figures;
     /* What was asked, as resolved. */
     const otx_method *method;
     const void *settings;

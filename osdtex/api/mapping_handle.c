@@ -10,16 +10,29 @@
 
 #include <string.h>
 
+/* What the method is given; settings are added once they are read. */
+static otx_job
+job_of(otx_run *run, osdtex_mapping *handle)
+{
+    return (otx_job){
+        .run = run,
+        .surface = &handle->surface->surface,
+        .exemplars = handle->exemplars,
+        .exemplar_count = handle->source_count,
+        .request = &handle->request,
+        .settings = handle->settings,
+        .figures = &handle->figures,
+    };
+}
+
 static otx_status
 choose_method(otx_run *run, const char *name, osdtex_mapping *handle)
 {
-    const bool is_auto = name && strcmp(name, "auto") == 0;
+    const otx_job job = job_of(run, handle);
 
-    if (is_auto && !handle->request.demand)
-        return otx_method_choose(
-            run, &handle->surface->surface, &handle->exemplar->exemplar,
-            &handle->request, &handle->method);
-    return otx_resolve_method(run, is_auto ? NULL : name, &handle->method);
+    return name && strcmp(name, "auto") == 0
+               ? otx_method_choose(&job, &handle->method)
+               : otx_resolve_method(run, name, &handle->method);
 }
 
 static osdtex_mapping_info
@@ -75,6 +88,7 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
     const osdtex_surface *surface;
     osdtex_map_options ours = osdtex_map_options_default();
     osdtex_mapping *handle = OTX_ZNEW(run->arena, osdtex_mapping, 1);
+    otx_job job;
 
     if (!handle)
         return otx_fail_memory(run, "map");
@@ -101,9 +115,8 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
         run, handle->method, ours.settings, ours.setting_count,
         &exemplar->exemplar, &handle->settings));
     run->seed = ours.seed;
-    OTX_TRY(otx_method_map(
-        run, handle->method, &surface->surface, handle->exemplars,
-        &handle->request, handle->settings, &handle->mapping, &handle->stats));
+    job = job_of(run, handle);
+    OTX_TRY(otx_method_map(handle->method, &job, &handle->mapping));
     handle->info = info_of(handle);
     *out = handle;
     return OSDTEX_OK;

@@ -8,6 +8,7 @@
 #include "file/mtl.h"
 #include "file/obj.h"
 #include "file/picture.h"
+#include "render/mapped_scene.h"
 
 #include <string.h>
 #include <unistd.h>

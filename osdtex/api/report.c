@@ -149,7 +149,7 @@ put_exemplars(
         json_array_append_new(list, one);
         put_exemplar(one, info);
         set_text(one, "from", info->source_space);
-        set_text(one, "class", mapping->stats.classes[k]);
+        set_text(one, "class", mapping->figures.classes[k]);
         set(one, "wrap_x", json_boolean(info->wrap_x));
         set(one, "wrap_y", json_boolean(info->wrap_y));
         set_real(
@@ -245,49 +245,60 @@ put_colour(
     }
 }
 
-/* What became of periodic coordinates. */
-static void
-put_lattice(json_t *mapping, const otx_map_stats *stats)
+/* The object below `parent` that a figure's name leads into, made where it is
+ * not there, and what is left of the name. */
+static json_t *
+figure_parent(json_t *parent, const char *name, const char **key)
 {
-    json_t *l = add_object(mapping, "lattice");
+    const char *dot = strchr(name, '.');
+    char group[64];
+    json_t *inner;
 
-    set_int(l, "faces", stats->lattice_faces);
-    set_int(l, "singular_faces", stats->singular_faces);
-    set_int(l, "singular_rings", stats->singular_rings);
-    set_int(l, "cancelled", stats->cancelled);
-    set_real(l, "clean_area_share", stats->clean_share);
-    set_real(l, "filled_area_share", stats->filled_share);
-    set_int(l, "blended_faces", stats->blended_faces);
-    set_real(l, "blended_area_share", stats->blended_share);
-    set_real(l, "gradient_error", stats->gradient_error);
+    *key = name;
+    if (!dot)
+        return parent;
+    snprintf(group, sizeof group, "%.*s", (int)(dot - name), name);
+    inner = json_object_get(parent, group);
+    return figure_parent(
+        inner ? inner : add_object(parent, group), dot + 1, key);
+}
+
+static void
+put_figure(json_t *mapping, const otx_figure *figure)
+{
+    const char *key;
+    json_t *parent = figure_parent(mapping, figure->name, &key), *list;
+
+    switch (figure->kind)
+    {
+    case OTX_FIGURE_COUNT:
+        set_int(parent, key, (int64_t)figure->value);
+        return;
+    case OTX_FIGURE_REAL:
+        set_real(parent, key, figure->value);
+        return;
+    case OTX_FIGURE_ITEM:
+        list = json_object_get(parent, key);
+        json_array_append_new(
+            list ? list : add_array(parent, key),
+            json_integer((json_int_t)figure->value));
+    }
 }
 
 static void
 put_mapping(json_t *root, const osdtex_mapping *mapping)
 {
-    const otx_map_stats *stats = &mapping->stats;
+    const otx_figures *figures = &mapping->figures;
     const osdtex_surface_info *surface = &mapping->surface->info;
     json_t *m = add_object(root, "mapping");
-    json_t *levels = add_array(m, "patches_by_level");
 
     set_int(m, "leaf_faces", surface->face_count);
     set_int(m, "leaf_vertices", surface->vert_count);
     set_real(m, "area", surface->area);
     set_real(m, "mean_edge_length", surface->mean_edge_length);
     set_int(m, "patches", mapping->mapping.patch_count);
-    set_int(m, "patches_above_cage", stats->patches[0]);
-    for (int32_t i = 0; i <= surface->level; ++i)
-        json_array_append_new(levels, json_integer(stats->patches[i + 1]));
-    set_int(m, "fits", stats->fit_count);
-    set_int(m, "splits", stats->split_count);
-    set_real(m, "threshold", stats->threshold);
-    set_real(m, "fit_error_mean", stats->fit_error_mean);
-    set_real(m, "cut_before", stats->cut_before);
-    set_real(m, "cut_after", stats->cut_after);
-    set_real(m, "relax_before", stats->relax_before);
-    set_real(m, "relax_after", stats->relax_after);
-    if (stats->lattice_faces > 0)
-        put_lattice(m, stats);
+    for (int32_t i = 0; i < figures->count; ++i)
+        put_figure(m, &figures->rows[i]);
 }
 
 static void
@@ -348,10 +359,10 @@ put_cost(
 
     for (int32_t i = 0; i < context->time_count; ++i)
         set_real(seconds, context->times[i].stage, context->times[i].seconds);
-    for (int32_t i = 0; i < mapping->stats.stage_count; ++i)
+    for (int32_t i = 0; i < mapping->figures.stage_count; ++i)
         set_real(
-            stages, mapping->stats.stages[i].name,
-            mapping->stats.stages[i].seconds);
+            stages, mapping->figures.stages[i].name,
+            mapping->figures.stages[i].seconds);
     set_int(
         memory, "peak_bytes", (int64_t)otx_allocator_peak(context->allocator));
     if (getrusage(RUSAGE_SELF, &usage) == 0)

@@ -227,7 +227,6 @@ otx_several_take(
         return otx_fail_memory(run, STAGE);
     OTX_TRY(collect(run, options, handle, demand, &said));
     OTX_TRY(check_demand(run, options, handle, demand, said));
-    handle->request.exemplar_count = handle->source_count;
     handle->request.demand = demand;
     return OSDTEX_OK;
 }

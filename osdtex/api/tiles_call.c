@@ -3,7 +3,6 @@
 #include "api/handle.h"
 #include "api/method_settings.h"
 #include "export/texture_file.h"
-#include "method/tile/tile.h"
 #include "tiling/tileset.h"
 
 #include <math.h>
@@ -83,25 +82,34 @@ choose_names(
     const osdtex_tiles_options *options, otx_tileset_options *out)
 {
     const otx_surface *s = &surface->surface;
-    const void *settings;
+    const otx_method *method = otx_method_for_tiles();
+    const otx_map_request request = {
+        .scale = options->scale > 0.0 ? options->scale
+                                      : surface->cage->info.default_scale,
+        .first_face = -1,
+    };
+    otx_job job = {
+        .run = run,
+        .surface = s,
+        .exemplars = exemplar,
+        .exemplar_count = 1,
+        .request = &request,
+    };
     otx_tile_layout layout;
-    int32_t level, count = 0, *names;
-    uint8_t *turns;
+    int32_t face_count, count = 0, *names;
 
+    if (!method)
+        return otx_fail(
+            run, OSDTEX_ERROR_SUPPORT, STAGE, OTX_NOWHERE,
+            "this build has no method that lays tiles, so that nothing can say "
+            "which a mesh needs");
     OTX_TRY(otx_method_settings_read(
-        run, otx_method_find("tile"), options->settings, options->setting_count,
-        exemplar, &settings));
+        run, method, options->settings, options->setting_count, exemplar,
+        &job.settings));
     OTX_TRY(otx_tileset_plan(run, exemplar, out, &layout));
-    OTX_TRY(otx_tile_level(
-        run, s, &layout, settings,
-        options->scale > 0.0 ? options->scale
-                             : surface->cage->info.default_scale,
-        &level));
-    OTX_TRY(otx_tile_assign(run, s, level, &layout, settings, &names, &turns));
-    qsort(
-        names, (size_t)s->levels[level].face_count, sizeof *names,
-        compare_names);
-    for (int32_t i = 0; i < s->levels[level].face_count; ++i)
+    OTX_TRY(method->tiles(&job, &layout, &names, &face_count));
+    qsort(names, (size_t)face_count, sizeof *names, compare_names);
+    for (int32_t i = 0; i < face_count; ++i)
         if (names[i] >= 0 && (count == 0 || names[i] != names[count - 1]))
             names[count++] = names[i];
     if (count == 0)

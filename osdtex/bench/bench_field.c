@@ -9,7 +9,7 @@
 
 #include "field/nested.h"
 #include "field/scale.h"
-#include "method/material/phase.h"
+#include "periodic/phase.h"
 
 #include <math.h>
 #include <stdio.h>

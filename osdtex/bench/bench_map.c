@@ -125,7 +125,7 @@ write_row(
     const double values[] = {
         faces,
         r->patch_count,
-        r->stats.fit_count,
+        otx_figures_value(&r->figures, "fits"),
         threads,
         r->whole.wall,
         r->whole.cpu,

@@ -85,8 +85,17 @@ map(otx_run *run, const bench_map_job *job, bench_map_result *out)
                                    : exemplar.match.width / job->leaf *
                                          surface.mean_edge_length;
     OTX_TRY(otx_method_map(
-        run, method, &surface, &exemplar, &request, settings, &mapping,
-        &out->stats));
+        method,
+        &(otx_job){
+            .run = run,
+            .surface = &surface,
+            .exemplars = &exemplar,
+            .exemplar_count = 1,
+            .request = &request,
+            .settings = settings,
+            .figures = &out->figures,
+        },
+        &mapping));
     out->whole = bench_stopwatch_since(start);
     inspect(&mapping, out);
     return OSDTEX_OK;
@@ -113,9 +122,9 @@ bench_map_job_stage(const bench_map_result *result, const char *name)
 {
     double seconds = NAN;
 
-    for (int32_t s = 0; s < result->stats.stage_count; ++s)
-        if (strcmp(result->stats.stages[s].name, name) == 0)
+    for (int32_t s = 0; s < result->figures.stage_count; ++s)
+        if (strcmp(result->figures.stages[s].name, name) == 0)
             seconds = (isfinite(seconds) ? seconds : 0.0) +
-                      result->stats.stages[s].seconds;
+                      result->figures.stages[s].seconds;
     return seconds;
 }

@@ -26,7 +26,7 @@ typedef struct bench_map_result
     int32_t leaf_faces, patch_count;
     bench_time whole;    /* cage, exemplar, refinement, mapping */
     double refine;       /* wall seconds */
-    otx_map_stats stats; /* of the mapping */
+    otx_figures figures; /* of the mapping */
     double heap_bytes;   /* handed out at the peak */
     double resident_bytes;
     int32_t bare_faces; /* without a patch */

@@ -3,7 +3,10 @@
 
 #include "base/pqueue.h"
 #include "flatten/arap.h"
+#include "flatten/chart_check.h"
 #include "flatten/stretch.h"
+
+#include <assert.h>
 
 otx_status
 otx_chart_space_create(
@@ -306,5 +309,6 @@ otx_chart_build(
     clear_space(out, space);
     OTX_TRY(status);
     judge_core(out, request);
+    assert(!otx_chart_check(out, request->surface));
     return OSDTEX_OK;
 }

@@ -8,8 +8,11 @@
  * a neighbour laid against the edge meets it at every vertex. */
 #include "flatten/recursive.h"
 
+#include "flatten/chart_check.h"
 #include "flatten/descent.h"
 #include "flatten/polygon.h"
+
+#include <assert.h>
 
 /* -- one patch ----------------------------------------------------------- */
 
@@ -464,5 +467,6 @@ otx_recursive_build(
     OTX_TRY(
         assemble(&pieces[0], pieces + 1, edges, count, space, scratch, out));
     judge(out, request);
+    assert(!otx_chart_check(out, request->surface));
     return OSDTEX_OK;
 }

@@ -3,10 +3,8 @@
 
 #include "mapping/mapping_check.h"
 #include "method/scale_check.h"
-#include "seam/unit.h"
 
 #include <string.h>
-#include <time.h>
 
 extern const otx_method otx_method_hierarchical;
 extern const otx_method otx_method_material;
@@ -39,27 +37,13 @@ otx_method_find(const char *name)
     return NULL;
 }
 
-static double
-now(void)
+const otx_method *
+otx_method_for_tiles(void)
 {
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-void
-otx_map_stats_stage(otx_map_stats *stats, const char *name)
-{
-    const double time = now();
-
-    if (stats->stage_count > 0)
-        stats->stages[stats->stage_count - 1].seconds += time;
-    if (name && stats->stage_count < OTX_STAGE_MAX)
-    {
-        stats->stages[stats->stage_count].name = name;
-        stats->stages[stats->stage_count++].seconds = -time;
-    }
+    for (int32_t i = 0; i < otx_method_count(); ++i)
+        if (METHODS[i]->tiles)
+            return METHODS[i];
+    return NULL;
 }
 
 /* Requests that no method could answer. */
@@ -96,98 +80,121 @@ check(
     return otx_scale_check(run, surface, 1.0, exemplar, request->scale);
 }
 
-otx_status
-otx_method_map(
-    otx_run *run, const otx_method *method, const otx_surface *surface,
-    const otx_exemplar *exemplar, const otx_map_request *request,
-    const void *settings, otx_mapping *out, otx_map_stats *stats)
+/* The first method of the table that the others may be told to leave a job
+ * to. */
+static const char *
+mixing_method(void)
 {
-    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    for (int32_t i = 0; i < otx_method_count(); ++i)
+        if (METHODS[i]->mixes)
+            return METHODS[i]->name;
+    return "none of this build";
+}
 
-    *stats = (otx_map_stats){0};
-    *out = (otx_mapping){0};
-    OTX_TRY(check(run, surface, exemplar, request));
-    if (request->demand && !method->mixes)
+static const char *
+beginning_method(void)
+{
+    for (int32_t i = 0; i < otx_method_count(); ++i)
+        if (METHODS[i]->begins)
+            return METHODS[i]->name;
+    return "none of this build";
+}
+
+/* What this method cannot answer. */
+static otx_status
+check_method(const otx_method *method, const otx_job *job)
+{
+    if (job->request->demand && !method->mixes)
         return otx_fail(
-            run, OSDTEX_ERROR_SUPPORT, "map", OTX_NOWHERE,
+            job->run, OSDTEX_ERROR_SUPPORT, "map", OTX_NOWHERE,
             "the method '%s' takes one exemplar; several are for the method "
             "'%s'",
-            method->name, otx_method_at(0)->name);
-    if (request->first_face >= 0 && !method->begins)
+            method->name, mixing_method());
+    if (job->request->first_face >= 0 && !method->begins)
         otx_note(
-            run, OSDTEX_SEVERITY_WARNING, "map", OTX_NOWHERE,
+            job->run, OSDTEX_SEVERITY_WARNING, "map", OTX_NOWHERE,
             "the method '%s' has no first patch, and leaves it out; it is for "
             "the method '%s'",
-            method->name, otx_method_at(0)->name);
-    otx_map_stats_stage(stats, "prepare");
-    OTX_TRY(method->map(run, surface, exemplar, request, settings, out, stats));
-    otx_map_stats_stage(stats, NULL);
-    otx_arena_release(run->scratch, mark);
+            method->name, beginning_method());
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_method_map(const otx_method *method, const otx_job *job, otx_mapping *out)
+{
+    const otx_arena_mark mark = otx_arena_here(job->run->scratch);
+
+    if (job->figures)
+        *job->figures = (otx_figures){0};
+    *out = (otx_mapping){0};
+    OTX_TRY(check(job->run, job->surface, job->exemplars, job->request));
+    OTX_TRY(check_method(method, job));
+    otx_figures_stage(job->figures, "prepare");
+    OTX_TRY(method->map(job, out));
+    otx_figures_stage(job->figures, NULL);
+    otx_arena_release(job->run->scratch, mark);
     return otx_mapping_check(
-        run, out, surface, exemplar,
-        request->demand ? request->exemplar_count : 1, method->name);
+        job->run, out, job->surface, job->exemplars, job->exemplar_count,
+        method->name);
 }
 
 otx_status
 otx_method_fill(
-    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    const otx_map_request *request, const otx_method_given *given,
-    otx_mapping *out, otx_map_stats *stats)
+    const otx_job *job, const otx_patch_given *given, otx_mapping *out)
 {
     const otx_method *method = NULL;
+    otx_job filling = *job;
     void *settings;
 
     for (int32_t i = 0; i < otx_method_count() && !method; ++i)
-        if (otx_method_at(i)->fill)
-            method = otx_method_at(i);
+        if (METHODS[i]->fill)
+            method = METHODS[i];
     if (!method)
         return otx_fail(
-            run, OSDTEX_ERROR_SUPPORT, "map", OTX_NOWHERE,
+            job->run, OSDTEX_ERROR_SUPPORT, "map", OTX_NOWHERE,
             "this build has no method that fills in patches");
-    settings = otx_arena_zalloc(run->arena, 1, method->settings_bytes);
+    settings = otx_arena_zalloc(job->run->arena, 1, method->settings_bytes);
     if (!settings)
-        return otx_fail_memory(run, "map");
+        return otx_fail_memory(job->run, "map");
     otx_option_defaults(method->options, method->option_count, settings);
-    return method->fill(
-        run, surface, exemplar, request, settings, given, out, stats);
+    filling.settings = settings;
+    return method->fill(&filling, given, out);
 }
 
-/* Fewest lattice cells that a surface shows when they are laid over it as a
- * whole: on fewer, defects are everywhere. */
-static const double CELLS_MIN = 60.0;
+/* Says why the others were not taken. */
+static void
+note_others(
+    const otx_job *job, const otx_method *taken,
+    const otx_suitability *suitability)
+{
+    for (int32_t i = 0; i < otx_method_count(); ++i)
+        if (METHODS[i] != taken && suitability[i].score == 0.0 &&
+            suitability[i].why[0])
+            otx_note(
+                job->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
+                "method %s is not taken: %s", METHODS[i]->name,
+                suitability[i].why);
+}
 
 otx_status
-otx_method_choose(
-    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    const otx_map_request *request, const otx_method **out)
+otx_method_choose(const otx_job *job, const otx_method **out)
 {
-    const double texels = otx_unit_texels(exemplar, request->scale);
-    const otx_method *lattice = otx_method_find("material");
-    otx_analysis a;
-    double cells = 0.0;
+    otx_suitability found[sizeof METHODS / sizeof METHODS[0]] = {{0}};
+    int32_t best = 0;
 
-    if (request->analysis)
-        a = *request->analysis;
-    else
-        OTX_TRY(otx_analysis_run(
-            run, &exemplar->lab, exemplar->wrap_x, exemplar->wrap_y, &a));
-    if (a.kind == OTX_ANALYSIS_LATTICE)
-        cells = surface->area * texels * texels /
-                otx_vec2_cross(a.generators[0], a.generators[1]);
-    *out = lattice && cells >= CELLS_MIN ? lattice : otx_method_at(0);
-    if (a.kind == OTX_ANALYSIS_LATTICE)
-        otx_note(
-            run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
-            "method %s: the exemplar is a lattice, and the surface has room "
-            "for %.0f of its cells, of %.0f that are needed at least%s",
-            (*out)->name, cells, CELLS_MIN,
-            *out == lattice ? "; limbs under two cells that it cannot follow "
-                              "get guided patches"
-                            : "");
-    else
-        otx_note(
-            run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
-            "method %s: the exemplar is %s, and only a lattice can run through",
-            (*out)->name, otx_analysis_name(a.kind));
+    for (int32_t i = 0; i < otx_method_count(); ++i)
+    {
+        if (!METHODS[i]->applicable ||
+            (job->request->demand && !METHODS[i]->mixes))
+            continue;
+        OTX_TRY(METHODS[i]->applicable(job, &found[i]));
+        if (found[i].score > found[best].score)
+            best = i;
+    }
+    *out = METHODS[best];
+    otx_note(
+        job->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE, "method %s: %s",
+        (*out)->name, found[best].why);
+    note_others(job, *out, found);
     return OSDTEX_OK;
 }

@@ -1,6 +1,10 @@
 /* sheet.c -- variables from (vertex, patch) pairs. */
 #include "relax/sheet.h"
 
+#include "relax/sheet_check.h"
+
+#include <assert.h>
+
 /* Corners of every vertex: CSR by counting. */
 static bool
 vertex_corners(
@@ -212,6 +216,7 @@ otx_sheet_build(
                             texels,          surface->density};
     if (otx_rigid_build(arena, &mesh, &out->rigid) != OSDTEX_OK)
         return otx_fail_memory(run, "relax");
+    assert(!otx_sheet_check(out, surface));
     return OSDTEX_OK;
 }
 

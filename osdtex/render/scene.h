@@ -41,13 +41,6 @@ typedef struct otx_scene
     const float *face_stretch; /* [face_count] */
 } otx_scene;
 
-/* The leaf level of a mapping on the limit surface, textured with its
- * exemplars. The stretch is taken in the mapping's own scale. Borrows both;
- * what must be made is made in run->arena. MEMORY. */
-otx_status otx_scene_from_mapping(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
-    otx_scene *out);
-
 /* Sets vert_normals to the mean of the faces around each vertex, weighted by
  * area, in run->arena. Where a face departs from them it is shown flat, so
  * sharp edges stay sharp. MEMORY. */

@@ -27,17 +27,17 @@ typedef struct blender
 otx_status
 otx_blend_check(const otx_material *m)
 {
-    const otx_where where = {m->exemplar->source_path, 0, -1, -1};
+    const otx_where where = {m->job->exemplars->source_path, 0, -1, -1};
 
     if (m->courses.count > 0)
         return otx_fail(
-            m->run, OSDTEX_ERROR_SUPPORT, "map", where,
+            m->job->run, OSDTEX_ERROR_SUPPORT, "map", where,
             "{set} fill=blend needs a lattice that is laid as a whole, but the "
             "exemplar is laid in courses; say {set} courses=off or {set} "
             "fill=on");
-    if (!m->exemplar->wrap_x || !m->exemplar->wrap_y)
+    if (!m->job->exemplars->wrap_x || !m->job->exemplars->wrap_y)
         return otx_fail(
-            m->run, OSDTEX_ERROR_SUPPORT, "map", where,
+            m->job->run, OSDTEX_ERROR_SUPPORT, "map", where,
             "{set} fill=blend needs an exemplar that tiles; make it tile "
             "({tileable} make), or say {set} fill=on");
     return OSDTEX_OK;
@@ -51,7 +51,8 @@ is_singular(const blender *b, int32_t face, int32_t k)
 {
     const int32_t vertex = b->level->face_verts[b->level->face_first[face] + k];
 
-    return b->m->rings.singular[vertex] || b->m->phase.turned[vertex];
+    return b->m->solved.rings.singular[vertex] ||
+           b->m->solved.phase.turned[vertex];
 }
 
 static bool
@@ -71,12 +72,12 @@ is_blended(const blender *b, int32_t face)
 static otx_status
 make_room(blender *b)
 {
-    otx_arena *arena = b->m->run->arena;
+    otx_arena *arena = b->m->job->run->arena;
     int64_t count = 0;
 
     b->first = OTX_NEW(arena, int64_t, (int64_t)b->leaf->face_count + 1);
     if (!b->first)
-        return otx_fail_memory(b->m->run, "map");
+        return otx_fail_memory(b->m->job->run, "map");
     for (int32_t f = 0; f < b->leaf->face_count; ++f)
     {
         const int32_t solved = otx_material_solved_face(b->m, f);
@@ -88,7 +89,7 @@ make_room(blender *b)
     }
     b->first[b->leaf->face_count] = count;
     b->items = OTX_NEW(arena, otx_lookup, count + 1);
-    return b->items ? OSDTEX_OK : otx_fail_memory(b->m->run, "map");
+    return b->items ? OSDTEX_OK : otx_fail_memory(b->m->job->run, "map");
 }
 
 /* -- weights ------------------------------------------------------------- */
@@ -120,7 +121,7 @@ store_weights(const blender *b, int32_t lookup, const otx_vec2 *weights)
 static otx_status
 weigh(const blender *b)
 {
-    otx_arena *scratch = b->m->run->scratch;
+    otx_arena *scratch = b->m->job->run->scratch;
     const otx_arena_mark mark = otx_arena_here(scratch);
     int32_t most = 0;
 
@@ -133,7 +134,7 @@ weigh(const blender *b)
         otx_vec2 *weights;
 
         if (!corners)
-            return otx_fail_memory(b->m->run, "map");
+            return otx_fail_memory(b->m->job->run, "map");
         for (int32_t f = 0; f < b->level->face_count; ++f)
         {
             if (k < otx_level_face_size(b->level, f))
@@ -155,7 +156,7 @@ weigh(const blender *b)
 static void
 measure_wishes(const blender *b, int32_t face, otx_vec2 *out)
 {
-    const otx_phase *phase = &b->m->phase;
+    const otx_phase *phase = &b->m->solved.phase;
     const int32_t first = b->level->face_first[face];
 
     for (int32_t k = 0; k < otx_level_face_size(b->level, face); ++k)
@@ -182,7 +183,7 @@ nearest(double part, double cell)
 static otx_vec2
 cell_of(const blender *b, int32_t face, int32_t k)
 {
-    const otx_phase *phase = &b->m->phase;
+    const otx_phase *phase = &b->m->solved.phase;
     const int32_t corner = b->level->face_first[face] + k;
     otx_vec2 part = otx_vec2_scale(phase->sense[face], phase->parts[corner]);
 
@@ -198,7 +199,8 @@ cell_of(const blender *b, int32_t face, int32_t k)
 static void
 lay_corner(const blender *b, int32_t face, int32_t k, otx_vec2 *out)
 {
-    const otx_vec2 *cells = b->m->phase.cells + b->level->face_first[face];
+    const otx_vec2 *cells =
+        b->m->solved.phase.cells + b->level->face_first[face];
     const int32_t size = otx_level_face_size(b->level, face);
     const otx_vec2 own = cell_of(b, face, k);
     otx_vec2 wishes[SIDES_MAX], there = own, back = own;
@@ -233,7 +235,8 @@ to_uv(const otx_material *m, otx_vec2 cell)
             otx_vec2_scale(cell.x, g[0]), otx_vec2_scale(cell.y, g[1])));
 
     return (otx_vec2){
-        at.x / m->exemplar->match.width, at.y / m->exemplar->match.height};
+        at.x / m->job->exemplars->match.width,
+        at.y / m->job->exemplars->match.height};
 }
 
 /* UVs of one lookup in a leaf face, from the cells at the corners of the face
@@ -268,40 +271,41 @@ store_uvs(
 static void
 note(const blender *b)
 {
-    otx_map_stats *stats = b->m->stats;
+    otx_material_tally *tally = &b->m->tally;
     double blended = 0.0, all = 0.0;
 
     for (int32_t f = 0; f < b->level->face_count; ++f)
-        stats->blended_faces += is_blended(b, f);
+        tally->blended_faces += is_blended(b, f);
     for (int32_t f = 0; f < b->leaf->face_count; ++f)
     {
         otx_vec3 unused;
         const double area = b->leaf->face_hole[f]
                                 ? 0.0
                                 : otx_vec3_length(otx_dual_leaf_area(
-                                      b->m->surface, f, &unused));
+                                      b->m->job->surface, f, &unused));
 
         all += area;
         blended += b->first[f + 1] > b->first[f] ? area : 0.0;
     }
-    stats->blended_share = blended / all;
+    tally->blended_share = blended / all;
     otx_note(
-        b->m->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
+        b->m->job->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
         "%d of %d faces, %.1f %% of the area, are mixed from what their "
         "corners "
         "look up, which only a bake shows: UVs alone are torn there",
-        (int)stats->blended_faces, (int)b->level->face_count,
-        100.0 * stats->blended_share);
+        (int)tally->blended_faces, (int)b->level->face_count,
+        100.0 * tally->blended_share);
 }
 
 otx_status
 otx_blend_run(otx_material *m, otx_mapping *out)
 {
-    otx_lookups *lookups = OTX_NEW(m->run->arena, otx_lookups, 1);
-    blender b = {m, m->connection.level, otx_surface_leaf(m->surface), 0, 0};
+    otx_lookups *lookups = OTX_NEW(m->job->run->arena, otx_lookups, 1);
+    blender b = {
+        m, m->solved.connection.level, otx_surface_leaf(m->job->surface), 0, 0};
 
     if (!lookups)
-        return otx_fail_memory(m->run, "map");
+        return otx_fail_memory(m->job->run, "map");
     OTX_TRY(make_room(&b));
     OTX_TRY(weigh(&b));
     for (int32_t f = 0; f < b.leaf->face_count; ++f)
@@ -318,7 +322,7 @@ otx_blend_run(otx_material *m, otx_mapping *out)
     }
     note(&b);
     *lookups = (otx_lookups){b.first, b.items};
-    if (m->stats->blended_faces > 0)
+    if (m->tally.blended_faces > 0)
         out->lookups = lookups;
     return OSDTEX_OK;
 }

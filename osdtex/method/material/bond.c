@@ -35,15 +35,15 @@ read_columns(const otx_material *m, columns *out)
 
     out->count = (int32_t)fmin(COLUMNS_MAX, m->courses.period);
     out->colors = to = OTX_NEW(
-        m->run->scratch, float,
+        m->job->run->scratch, float,
         3 * (int64_t)m->courses.count * out->count * SAMPLES);
     if (!to)
-        return otx_fail_memory(m->run, "map");
+        return otx_fail_memory(m->job->run, "map");
     for (int32_t c = 0; c < m->courses.count; ++c)
         for (int32_t i = 0; i < out->count; ++i)
             for (int32_t k = 0; k < SAMPLES; ++k, to += 3)
                 otx_view_value(
-                    otx_view_of(&m->exemplar->match, true, true),
+                    otx_view_of(&m->job->exemplars->match, true, true),
                     otx_courses_texel(
                         &m->courses, (i + 0.5) * m->courses.period / out->count,
                         c + (k + 0.5) / SAMPLES),
@@ -59,7 +59,7 @@ column_distance(
 {
     const float *of =
         c->colors + (size_t)course * (size_t)c->count * SAMPLES * 3;
-    const double sigma = m->exemplar->match_sigma;
+    const double sigma = m->job->exemplars->match_sigma;
     double sum = 0.0;
 
     for (int32_t k = 0; k < SAMPLES; ++k)
@@ -105,14 +105,14 @@ close_ring(const otx_material *m, const columns *c, otx_strip *strip)
 static otx_status
 close_rings(otx_strips *s)
 {
-    const otx_arena_mark mark = otx_arena_here(s->m->run->scratch);
+    const otx_arena_mark mark = otx_arena_here(s->m->job->run->scratch);
     columns c;
 
     OTX_TRY(read_columns(s->m, &c));
     for (int32_t i = 0; i < s->count; ++i)
         if (s->strips[i].length > 0.0)
             close_ring(s->m, &c, &s->strips[i]);
-    otx_arena_release(s->m->run->scratch, mark);
+    otx_arena_release(s->m->job->run->scratch, mark);
     return OSDTEX_OK;
 }
 
@@ -181,15 +181,15 @@ write_face(otx_material *m, const otx_strips *s, int32_t face)
         const double course = strip->course + otx_strips_across(s, face, i);
         const double along = s->along[i] + shift;
 
-        m->uvs[i] = otx_courses_texel(&m->courses, along, course);
-        m->cells[i] = (otx_vec2){along / m->courses.period, course};
+        m->laid.uvs[i] = otx_courses_texel(&m->courses, along, course);
+        m->laid.cells[i] = (otx_vec2){along / m->courses.period, course};
     }
 }
 
 otx_status
 otx_coursing_lay(otx_material *m)
 {
-    const otx_arena_mark mark = otx_arena_here(m->run->scratch);
+    const otx_arena_mark mark = otx_arena_here(m->job->run->scratch);
     otx_strip_tears tears;
     otx_strips s;
 
@@ -203,6 +203,6 @@ otx_coursing_lay(otx_material *m)
     for (int32_t f = 0; f < s.leaf.level->face_count; ++f)
         if (s.of[f] >= 0)
             write_face(m, &s, f);
-    otx_arena_release(m->run->scratch, mark);
+    otx_arena_release(m->job->run->scratch, mark);
     return OSDTEX_OK;
 }

@@ -12,7 +12,7 @@ static const double CLEARLY = 1.1;
 otx_status
 otx_coursing_choose(otx_material *m)
 {
-    const otx_exemplar *e = m->exemplar;
+    const otx_exemplar *e = m->job->exemplars;
     const int32_t wish = m->settings->courses;
     otx_vec2 *g = m->analysis.generators;
     otx_courses found;
@@ -21,12 +21,13 @@ otx_coursing_choose(otx_material *m)
     if (wish == OTX_COURSING_OFF)
         return OSDTEX_OK;
     if (e->wrap_x && e->wrap_y)
-        OTX_TRY(otx_courses_find(m->run, &e->lab, &found));
+        OTX_TRY(otx_courses_find(m->job->run, &e->lab, &found));
     else
         found.count = 0;
     if (wish == OTX_COURSING_ON && found.count == 0)
         return otx_fail(
-            m->run, OSDTEX_ERROR_SUPPORT, "map", otx_where_file(e->source_path),
+            m->job->run, OSDTEX_ERROR_SUPPORT, "map",
+            otx_where_file(e->source_path),
             "courses are asked for, and the exemplar has none that repeat "
             "across a picture that tiles; try {tileable} make, or leave out "
             "courses=on");
@@ -41,7 +42,8 @@ otx_coursing_choose(otx_material *m)
     g[1] = found.upright ? (otx_vec2){-height, 0} : (otx_vec2){0, height};
     m->analysis.angle = found.upright ? 0.5 * OTX_PI : 0.0;
     otx_note(
-        m->run, OSDTEX_SEVERITY_INFO, "map", otx_where_file(e->source_path),
+        m->job->run, OSDTEX_SEVERITY_INFO, "map",
+        otx_where_file(e->source_path),
         "%d courses of %.0f texels, laid one by one (courses=off: as one "
         "lattice)",
         (int)found.count, height);
@@ -78,16 +80,17 @@ void
 otx_coursing_turn(otx_material *m)
 {
     const otx_vec2 quarter =
-        m->field.symmetry == 2 ? (otx_vec2){-1, 0} : (otx_vec2){0, 1};
+        m->solved.field.symmetry == 2 ? (otx_vec2){-1, 0} : (otx_vec2){0, 1};
     double along, across;
 
-    split_turn(&m->field, &along, &across);
+    split_turn(&m->solved.field, &along, &across);
     if (!(across > CLEARLY * along))
         return;
-    for (int32_t f = 0; f < m->connection.level->face_count; ++f)
-        m->field.powers[f] = otx_vec2_mul(m->field.powers[f], quarter);
+    for (int32_t f = 0; f < m->solved.connection.level->face_count; ++f)
+        m->solved.field.powers[f] =
+            otx_vec2_mul(m->solved.field.powers[f], quarter);
     otx_note(
-        m->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
+        m->job->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
         "courses lie at right angles to the smoothest field, where fewer of "
         "them end");
 }

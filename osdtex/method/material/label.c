@@ -27,7 +27,7 @@ fits(const otx_material *m, double rim, window *w)
     const otx_vec2 *g = m->analysis.generators;
     const otx_vec2 a = otx_vec2_scale(w->columns, g[0]);
     const otx_vec2 b = otx_vec2_scale(w->rows, g[1]);
-    const otx_image *image = &m->exemplar->match;
+    const otx_image *image = &m->job->exemplars->match;
     const double det = otx_vec2_cross(g[0], g[1]);
     const otx_vec2 middle = {0.5 * image->width, 0.5 * image->height};
     const otx_vec2 d = otx_vec2_sub(middle, m->analysis.centre);
@@ -55,8 +55,8 @@ choose_window(const otx_material *m, double rim, window *out)
         }
     if (out->columns == 0)
         return otx_fail(
-            m->run, OSDTEX_ERROR_SUPPORT, "map",
-            otx_where_file(m->exemplar->source_path),
+            m->job->run, OSDTEX_ERROR_SUPPORT, "map",
+            otx_where_file(m->job->exemplars->source_path),
             "the exemplar does not tile, and not one of its lattice cells lies "
             "inside it with room for a face around; give a picture that shows "
             "more of the lattice, or raise {level}");
@@ -67,7 +67,7 @@ choose_window(const otx_material *m, double rim, window *out)
 static double
 face_rim(const otx_material *m, const otx_vec2 *cells, int32_t face)
 {
-    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_level *leaf = otx_surface_leaf(m->job->surface);
     const otx_vec2 *g = m->analysis.generators;
     double most = 0.0;
 
@@ -88,7 +88,7 @@ face_rim(const otx_material *m, const otx_vec2 *cells, int32_t face)
 static void
 move_into_window(const otx_material *m, const window *w, otx_vec2 *cells)
 {
-    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_level *leaf = otx_surface_leaf(m->job->surface);
 
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {
@@ -108,11 +108,11 @@ move_into_window(const otx_material *m, const window *w, otx_vec2 *cells)
 otx_status
 otx_label_windows(const otx_material *m, const uint8_t *open, otx_vec2 *cells)
 {
-    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_level *leaf = otx_surface_leaf(m->job->surface);
     double rim = 0.0;
     window w;
 
-    if (m->exemplar->wrap_x && m->exemplar->wrap_y)
+    if (m->job->exemplars->wrap_x && m->job->exemplars->wrap_y)
         return OSDTEX_OK;
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (!open[f] && !leaf->face_hole[f])
@@ -234,11 +234,11 @@ otx_label_patches(
     const otx_material *m, const uint8_t *open, const otx_vec2 *cells,
     int32_t *face_patch, int32_t *patch_count)
 {
-    const otx_arena_mark mark = otx_arena_here(m->run->scratch);
-    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_arena_mark mark = otx_arena_here(m->job->run->scratch);
+    const otx_level *leaf = otx_surface_leaf(m->job->surface);
     labeller l = {.leaf = leaf, .cells = cells, .face_patch = face_patch};
 
-    OTX_TRY(prepare(m->run, leaf, &l));
+    OTX_TRY(prepare(m->job->run, leaf, &l));
     for (int32_t f = 0; f < leaf->face_count; ++f)
         face_patch[f] = leaf->face_hole[f] || open[f] ? -2 : -1;
     *patch_count = 0;
@@ -248,6 +248,6 @@ otx_label_patches(
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (face_patch[f] == -2)
             face_patch[f] = -1;
-    otx_arena_release(m->run->scratch, mark);
+    otx_arena_release(m->job->run->scratch, mark);
     return OSDTEX_OK;
 }

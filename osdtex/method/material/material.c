@@ -4,24 +4,24 @@
 
 #include "seam/unit.h"
 
-#include <string.h>
+#include <stdio.h>
 
 static otx_status
 choose_lattice(otx_material *m)
 {
     const otx_vec2 *g = m->analysis.generators;
 
-    if (m->request->analysis)
-        m->analysis = *m->request->analysis;
+    if (m->job->request->analysis)
+        m->analysis = *m->job->request->analysis;
     else
         OTX_TRY(otx_analysis_run(
-            m->run, &m->exemplar->lab, m->exemplar->wrap_x, m->exemplar->wrap_y,
-            &m->analysis));
+            m->job->run, &m->job->exemplars->lab, m->job->exemplars->wrap_x,
+            m->job->exemplars->wrap_y, &m->analysis));
     if (m->analysis.kind != OTX_ANALYSIS_LATTICE &&
         m->settings->courses != OTX_COURSING_ON)
         return otx_fail(
-            m->run, OSDTEX_ERROR_SUPPORT, "map",
-            otx_where_file(m->exemplar->source_path),
+            m->job->run, OSDTEX_ERROR_SUPPORT, "map",
+            otx_where_file(m->job->exemplars->source_path),
             "the exemplar is %s: periodic coordinates need a lattice; give it "
             "with {generators}, say {set} courses=on for masonry, or take "
             "another method",
@@ -40,21 +40,25 @@ solve_field(otx_material *m)
                                                 : 1,
     };
 
-    m->level = otx_phase_level(m->surface, m->cell);
-    OTX_TRY(otx_connection_build(m->run, m->surface, m->level, &m->connection));
+    m->solved.level = otx_phase_level(m->job->surface, m->cell);
+    OTX_TRY(otx_connection_build(
+        m->job->run, m->job->surface, m->solved.level, &m->solved.connection));
     OTX_TRY(otx_constraint_pins(
-        m->run, m->request->constraints, &m->connection, &request));
+        m->job->run, m->job->request->constraints, &m->solved.connection,
+        &request));
     if (request.symmetry == 4)
         request.symmetry = 2; /* coordinates do not change places */
-    OTX_TRY(otx_nested_solve(m->run, &m->connection, &request, &m->field));
+    OTX_TRY(otx_nested_solve(
+        m->job->run, &m->solved.connection, &request, &m->solved.field));
     if (m->courses.count > 0 && request.pin_count == 0 && !request.pull)
         otx_coursing_turn(m);
     OTX_TRY(otx_scale_solve(
-        m->run, &m->field,
+        m->job->run, &m->solved.field,
         m->courses.count > 0 ? 0.0 : m->settings->octaves * log(2.0),
-        &m->log_scale));
+        &m->solved.log_scale));
     return otx_constraint_scale(
-        m->run, m->request->constraints, &m->connection, m->log_scale);
+        m->job->run, m->job->request->constraints, &m->solved.connection,
+        m->solved.log_scale);
 }
 
 /* Cells along and across the field: rows of the inverse of the generators,
@@ -76,107 +80,48 @@ static otx_status
 solve_phases(otx_material *m)
 {
     otx_phase_request request = {
-        .field = &m->field,
-        .log_scale = m->log_scale,
+        .field = &m->solved.field,
+        .log_scale = m->solved.log_scale,
         .cancel = m->settings->cancel * m->cell};
 
     cell_gradients(m, request.gradient);
     if (m->courses.count > 0)
         request.gradient[0] = (otx_vec2){0, 0};
-    OTX_TRY(otx_phase_solve(m->run, &request, &m->phase));
-    OTX_TRY(otx_rings_find(m->run, &m->phase, &request, &m->rings));
+    OTX_TRY(otx_phase_solve(m->job->run, &request, &m->solved.phase));
+    OTX_TRY(otx_rings_find(
+        m->job->run, &m->solved.phase, &request, &m->solved.rings));
     OTX_TRY(otx_phase_distance(
-        m->run, &m->connection, m->phase.defect, &m->distance));
-    return otx_phase_unwrap(m->run, &m->phase, m->distance);
-}
-
-double
-otx_material_density(const otx_material *m, int32_t leaf_face)
-{
-    const otx_level *level = m->connection.level;
-    const int32_t face = otx_material_solved_face(m, leaf_face);
-    double sum = 0.0;
-
-    for (int32_t i = level->face_first[face]; i < level->face_first[face + 1];
-         ++i)
-        sum += m->log_scale[level->face_verts[i]];
-    return m->texels * exp(sum / otx_level_face_size(level, face));
-}
-
-/* Cell coordinates of the corners of one face's children. */
-static void
-share_out(
-    const otx_level *level, const otx_level *finer, int32_t face,
-    const otx_vec2 *from, otx_vec2 *to)
-{
-    const int32_t first = level->face_first[face];
-    const int32_t size = otx_level_face_size(level, face);
-    const int32_t end = finer->face_first[level->face_child_first[face + 1]];
-    otx_vec2 middle = {0, 0};
-
-    for (int32_t k = 0; k < size; ++k)
-        middle =
-            otx_vec2_add(middle, otx_vec2_scale(1.0 / size, from[first + k]));
-    for (int32_t i = finer->face_first[level->face_child_first[face]]; i < end;
-         ++i)
-    {
-        const int32_t vertex = finer->face_verts[i];
-
-        to[i] = middle;
-        for (int32_t k = 0; k < size; ++k)
-            if (vertex == level->face_verts[first + k])
-                to[i] = from[first + k];
-            else if (
-                vertex == level->edge_child_vert[level->face_edges[first + k]])
-                to[i] = otx_vec2_lerp(
-                    from[first + k], from[first + (k + 1) % size], 0.5);
-    }
-}
-
-otx_status
-otx_material_refine(
-    const otx_material *m, otx_arena *arena, otx_vec2 *from, otx_vec2 **out)
-{
-    *out = from;
-    for (int32_t l = m->level; l + 1 < m->surface->level_count; ++l)
-    {
-        const otx_level *level = &m->surface->levels[l];
-        const otx_level *finer = level + 1;
-        otx_vec2 *cells = OTX_NEW(arena, otx_vec2, finer->corner_count);
-
-        if (!cells)
-            return otx_fail_memory(m->run, "map");
-        for (int32_t f = 0; f < level->face_count; ++f)
-            share_out(level, finer, f, *out, cells);
-        *out = cells;
-    }
-    return OSDTEX_OK;
+        m->job->run, &m->solved.connection, m->solved.phase.defect,
+        &m->solved.distance));
+    return otx_phase_unwrap(m->job->run, &m->solved.phase, m->solved.distance);
 }
 
 static otx_status
 lay_uvs(otx_material *m)
 {
-    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_level *leaf = otx_surface_leaf(m->job->surface);
     const otx_vec2 *g = m->analysis.generators;
 
-    m->uvs = OTX_NEW(m->run->arena, otx_vec2, leaf->corner_count);
-    m->face_patch = OTX_NEW(m->run->arena, int32_t, leaf->face_count);
-    m->open = OTX_ZNEW(m->run->arena, uint8_t, leaf->face_count);
-    if (!m->uvs || !m->face_patch || !m->open)
-        return otx_fail_memory(m->run, "map");
-    OTX_TRY(otx_material_refine(m, m->run->arena, m->phase.cells, &m->cells));
+    m->laid.uvs = OTX_NEW(m->job->run->arena, otx_vec2, leaf->corner_count);
+    m->laid.face_patch = OTX_NEW(m->job->run->arena, int32_t, leaf->face_count);
+    m->laid.open = OTX_ZNEW(m->job->run->arena, uint8_t, leaf->face_count);
+    if (!m->laid.uvs || !m->laid.face_patch || !m->laid.open)
+        return otx_fail_memory(m->job->run, "map");
+    OTX_TRY(otx_material_refine(
+        m, m->job->run->arena, m->solved.phase.cells, &m->laid.cells));
     otx_refill_clear(m);
     if (m->courses.count > 0)
         OTX_TRY(otx_coursing_lay(m));
     OTX_TRY(otx_refill_choose(m));
-    OTX_TRY(otx_label_windows(m, m->open, m->cells));
+    OTX_TRY(otx_label_windows(m, m->laid.open, m->laid.cells));
     OTX_TRY(otx_label_patches(
-        m, m->open, m->cells, m->face_patch, &m->patch_count));
+        m, m->laid.open, m->laid.cells, m->laid.face_patch,
+        &m->laid.patch_count));
     for (int32_t i = 0; m->courses.count == 0 && i < leaf->corner_count; ++i)
-        m->uvs[i] = otx_vec2_add(
+        m->laid.uvs[i] = otx_vec2_add(
             m->analysis.centre, otx_vec2_add(
-                                    otx_vec2_scale(m->cells[i].x, g[0]),
-                                    otx_vec2_scale(m->cells[i].y, g[1])));
+                                    otx_vec2_scale(m->laid.cells[i].x, g[0]),
+                                    otx_vec2_scale(m->laid.cells[i].y, g[1])));
     return OSDTEX_OK;
 }
 
@@ -184,48 +129,103 @@ lay_uvs(otx_material *m)
 static otx_status
 show_lattice(otx_material *m, otx_mapping *out)
 {
-    otx_cell_map *map = OTX_NEW(m->run->arena, otx_cell_map, 1);
+    otx_cell_map *map = OTX_NEW(m->job->run->arena, otx_cell_map, 1);
     otx_vec3 *defects =
-        OTX_NEW(m->run->arena, otx_vec3, m->phase.defect_count + 1);
+        OTX_NEW(m->job->run->arena, otx_vec3, m->solved.phase.defect_count + 1);
 
     if (!map || !defects)
-        return otx_fail_memory(m->run, "map");
-    *map = (otx_cell_map){m->cells, m->open, defects, 0};
-    for (int32_t f = 0; f < m->connection.level->face_count; ++f)
-        if (m->phase.defect[f])
-            defects[map->defect_count++] = m->connection.centres[f];
+        return otx_fail_memory(m->job->run, "map");
+    *map = (otx_cell_map){m->laid.cells, m->laid.open, defects, 0};
+    for (int32_t f = 0; f < m->solved.connection.level->face_count; ++f)
+        if (m->solved.phase.defect[f])
+            defects[map->defect_count++] = m->solved.connection.centres[f];
     out->lattice = map;
     return OSDTEX_OK;
 }
 
+static void
+report(const otx_material *m)
+{
+    otx_figures *f = m->job->figures;
+
+    otx_figures_count(
+        f, "lattice.faces", "faces", m->solved.connection.level->face_count);
+    otx_figures_count(
+        f, "lattice.singular_faces", "faces", m->solved.phase.defect_count);
+    otx_figures_count(
+        f, "lattice.singular_rings", "rings", m->solved.rings.count);
+    otx_figures_count(
+        f, "lattice.cancelled", "dislocations", m->solved.phase.cancelled);
+    otx_figures_real(f, "lattice.clean_area_share", "", m->tally.clean_share);
+    otx_figures_real(f, "lattice.filled_area_share", "", m->tally.filled_share);
+    otx_figures_count(
+        f, "lattice.blended_faces", "faces", m->tally.blended_faces);
+    otx_figures_real(
+        f, "lattice.blended_area_share", "", m->tally.blended_share);
+    otx_figures_real(f, "lattice.gradient_error", "", m->solved.phase.error);
+}
+
 static otx_status
-map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    const otx_map_request *request, const void *settings, otx_mapping *out,
-    otx_map_stats *stats)
+map(const otx_job *job, otx_mapping *out)
 {
     otx_material m = {
-        .run = run,
-        .surface = surface,
-        .exemplar = exemplar,
-        .request = request,
-        .settings = settings,
-        .stats = stats,
-        .texels = otx_unit_texels(exemplar, request->scale),
+        .job = job,
+        .settings = job->settings,
+        .texels = otx_unit_texels(job->exemplars, job->request->scale),
     };
 
     OTX_TRY(choose_lattice(&m));
     OTX_TRY(otx_coursing_choose(&m));
     if (m.settings->fill == OTX_FILL_BLEND)
         OTX_TRY(otx_blend_check(&m));
-    otx_map_stats_stage(stats, "field");
+    otx_figures_stage(job->figures, "field");
     OTX_TRY(solve_field(&m));
-    otx_map_stats_stage(stats, "phase");
+    otx_figures_stage(job->figures, "phase");
     OTX_TRY(solve_phases(&m));
     OTX_TRY(lay_uvs(&m));
     OTX_TRY(otx_refill_run(&m, out));
     if (m.settings->fill == OTX_FILL_BLEND)
         OTX_TRY(otx_blend_run(&m, out));
+    report(&m);
     return show_lattice(&m, out);
+}
+
+/* Fewest lattice cells that a surface shows when they are laid over it as a
+ * whole: on fewer, defects are everywhere. */
+static const double CELLS_MIN = 60.0;
+
+static otx_status
+applicable(const otx_job *job, otx_suitability *out)
+{
+    const otx_exemplar *e = job->exemplars;
+    const double texels = otx_unit_texels(e, job->request->scale);
+    otx_analysis a;
+    double cells;
+
+    if (job->request->analysis)
+        a = *job->request->analysis;
+    else
+        OTX_TRY(otx_analysis_run(job->run, &e->lab, e->wrap_x, e->wrap_y, &a));
+    if (a.kind != OTX_ANALYSIS_LATTICE)
+    {
+        snprintf(
+            out->why, sizeof out->why,
+            "the exemplar is %s, and only a lattice can run through",
+            otx_analysis_name(a.kind));
+        return OSDTEX_OK;
+    }
+    cells = job->surface->area * texels * texels /
+            otx_vec2_cross(a.generators[0], a.generators[1]);
+    out->score = cells >= CELLS_MIN ? 0.8 : 0.0;
+    snprintf(
+        out->why, sizeof out->why,
+        "the exemplar is a lattice, and the surface has room for %.0f of its "
+        "cells, of %.0f that are needed at least%s",
+        cells, CELLS_MIN,
+        out->score > 0.0 ? "; limbs under two cells that it cannot follow get "
+                           "guided patches"
+                         : "");
+    return OSDTEX_OK;
 }
 
 const otx_method otx_method_material = {
@@ -236,5 +236,6 @@ const otx_method otx_method_material = {
     .options = otx_material_options,
     .option_count = OTX_MATERIAL_OPTION_COUNT,
     .settings_bytes = sizeof(otx_material_settings),
+    .applicable = applicable,
     .map = map,
 };

@@ -15,8 +15,9 @@
 #include "field/nested.h"
 #include "field/scale.h"
 #include "field/singularity.h"
-#include "method/material/rings.h"
 #include "method/method.h"
+#include "periodic/rings.h"
+#include "periodic/unwrap.h"
 
 enum
 {
@@ -51,34 +52,61 @@ enum
     OTX_MATERIAL_OPTION_COUNT = 8
 };
 
-typedef struct otx_material
+/* What is reported, beside what the results hold. */
+typedef struct otx_material_tally
 {
-    otx_run *run;
-    const otx_surface *surface;
-    const otx_exemplar *exemplar;
-    const otx_map_request *request;
-    const otx_material_settings *settings;
-    otx_map_stats *stats;
-    otx_analysis analysis;
-    double texels; /* per scene unit */
-    double cell;   /* length of the shorter generator, scene units; height of a
-                    * course */
-    otx_courses courses; /* count 0: the lattice is laid as a whole */
+    double clean_share;    /* of the area, over a cell from any defect */
+    double filled_share;   /* of the area, covered by patches */
+    int32_t blended_faces; /* that show the mean of several lookups */
+    double blended_share;  /* of the area, theirs */
+} otx_material_tally;
 
-    int32_t level;             /* that is solved on */
+/* Periodic coordinates and what they were solved from, of one level. */
+typedef struct otx_material_solved
+{
+    int32_t level;
     otx_connection connection; /* of that level */
     otx_direction field;
     double *log_scale; /* [vert_count] */
     otx_phase phase;
     otx_rings rings;
     double *distance; /* [face_count] from the nearest defect, scene units */
+} otx_material_solved;
 
+/* What the leaves show. */
+typedef struct otx_material_laid
+{
     int32_t *face_patch; /* [leaf face_count] */
     otx_vec2 *uvs;       /* [leaf corner_count] texels */
     int32_t patch_count;
     otx_vec2 *cells; /* [leaf corner_count] lattice coordinates */
     uint8_t *open;   /* [leaf face_count] 1: patches cover it */
+} otx_material_laid;
+
+typedef struct otx_material
+{
+    const otx_job *job;
+    const otx_material_settings *settings;
+    otx_analysis analysis;
+    double texels; /* per scene unit */
+    double cell;   /* length of the shorter generator, scene units; height of a
+                    * course */
+    otx_courses courses; /* count 0: the lattice is laid as a whole */
+    otx_material_solved solved;
+    otx_material_laid laid;
+    otx_material_tally tally;
 } otx_material;
+
+/* lattice_cells.c: texels per scene unit that are asked for on a leaf face. */
+double otx_material_density(const otx_material *m, int32_t leaf_face);
+
+/* The face of the solved level above a leaf face. */
+int32_t otx_material_solved_face(const otx_material *m, int32_t leaf_face);
+
+/* Coordinates of leaf corners, [leaf corner_count] in `arena`, from those of
+ * the solved level: linear along edges and to the middle of faces. MEMORY. */
+otx_status otx_material_refine(
+    const otx_material *m, otx_arena *arena, otx_vec2 *from, otx_vec2 **out);
 
 /* label.c: takes whole cells off the faces that are not `open` ([leaf
  * face_count]), so that they lie inside an exemplar that does not tile.
@@ -92,12 +120,6 @@ otx_status otx_label_patches(
     const otx_material *m, const uint8_t *open, const otx_vec2 *cells,
     int32_t *face_patch, int32_t *patch_count);
 
-/* Texels per scene unit that are asked for on a leaf face. */
-double otx_material_density(const otx_material *m, int32_t leaf_face);
-
-/* The face of the solved level above a leaf face. */
-int32_t otx_material_solved_face(const otx_material *m, int32_t leaf_face);
-
 /* refill.c: opens the leaf faces that lie close to a dislocation. */
 void otx_refill_clear(otx_material *m);
 /* Opens also those that the periodic texture does not suit. MEMORY. */
@@ -109,10 +131,5 @@ otx_status otx_refill_run(otx_material *m, otx_mapping *out);
 otx_status otx_blend_check(const otx_material *m);
 /* Gives the faces of singular rings a lookup for each of their corners. */
 otx_status otx_blend_run(otx_material *m, otx_mapping *out);
-
-/* Coordinates of leaf corners, [leaf corner_count] in `arena`, from those of
- * the solved level: linear along edges and to the middle of faces. MEMORY. */
-otx_status otx_material_refine(
-    const otx_material *m, otx_arena *arena, otx_vec2 *from, otx_vec2 **out);
 
 #endif

@@ -21,7 +21,7 @@ static const double KEPT = 1.5;
 static bool
 is_unfolded(const otx_material *m, const otx_vec2 *cells, int32_t face)
 {
-    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_level *leaf = otx_surface_leaf(m->job->surface);
     const int32_t first = leaf->face_first[face];
     const int32_t size = otx_level_face_size(leaf, face);
     const double sense =
@@ -46,7 +46,7 @@ is_unfolded(const otx_material *m, const otx_vec2 *cells, int32_t face)
 static bool
 is_sound(const otx_material *m, const otx_vec2 *cells, int32_t face)
 {
-    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_level *leaf = otx_surface_leaf(m->job->surface);
     const otx_vec2 *g = m->analysis.generators;
     const double limit = m->settings->stretch;
     const int32_t first = leaf->face_first[face];
@@ -62,7 +62,8 @@ is_sound(const otx_material *m, const otx_vec2 *cells, int32_t face)
         {
             p[j] = otx_vec3_scale(
                 m->texels,
-                otx_vec3_load(m->surface->points, leaf->face_verts[at[j]]));
+                otx_vec3_load(
+                    m->job->surface->points, leaf->face_verts[at[j]]));
             q[j] = otx_vec2_add(
                 otx_vec2_scale(cells[at[j]].x, g[0]),
                 otx_vec2_scale(cells[at[j]].y, g[1]));
@@ -79,18 +80,8 @@ face_area(const otx_material *m, int32_t leaf_face)
 {
     otx_vec3 unused;
 
-    return 0.5 *
-           otx_vec3_length(otx_dual_leaf_area(m->surface, leaf_face, &unused));
-}
-
-int32_t
-otx_material_solved_face(const otx_material *m, int32_t leaf_face)
-{
-    int32_t face = leaf_face;
-
-    for (int32_t l = m->surface->level_count - 1; l > m->level; --l)
-        face = m->surface->levels[l].face_parent[face];
-    return face;
+    return 0.5 * otx_vec3_length(
+                     otx_dual_leaf_area(m->job->surface, leaf_face, &unused));
 }
 
 /* Opens what is too narrow between open faces: limbs with a dislocation every
@@ -98,49 +89,39 @@ otx_material_solved_face(const otx_material *m, int32_t leaf_face)
 static otx_status
 open_narrow(otx_material *m)
 {
-    const otx_arena_mark mark = otx_arena_here(m->run->scratch);
-    const otx_level *leaf = otx_surface_leaf(m->surface);
-    const int32_t count = m->connection.level->face_count;
-    uint8_t *marked = OTX_ZNEW(m->run->scratch, uint8_t, count);
+    const otx_arena_mark mark = otx_arena_here(m->job->run->scratch);
+    const otx_level *leaf = otx_surface_leaf(m->job->surface);
+    const int32_t count = m->solved.connection.level->face_count;
+    uint8_t *marked = OTX_ZNEW(m->job->run->scratch, uint8_t, count);
     double *distance;
 
     if (!marked)
-        return otx_fail_memory(m->run, "map");
+        return otx_fail_memory(m->job->run, "map");
     for (int32_t f = 0; f < leaf->face_count; ++f)
-        if (m->open[f])
+        if (m->laid.open[f])
             marked[otx_material_solved_face(m, f)] = 1;
-    OTX_TRY(otx_phase_distance(m->run, &m->connection, marked, &distance));
+    OTX_TRY(otx_phase_distance(
+        m->job->run, &m->solved.connection, marked, &distance));
     for (int32_t f = 0; f < count; ++f)
         marked[f] = distance[f] > CORE * m->cell;
-    OTX_TRY(otx_phase_distance(m->run, &m->connection, marked, &distance));
+    OTX_TRY(otx_phase_distance(
+        m->job->run, &m->solved.connection, marked, &distance));
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (distance[otx_material_solved_face(m, f)] > KEPT * m->cell)
-            m->open[f] = !leaf->face_hole[f];
-    otx_arena_release(m->run->scratch, mark);
+            m->laid.open[f] = !leaf->face_hole[f];
+    otx_arena_release(m->job->run->scratch, mark);
     return OSDTEX_OK;
-}
-
-static void
-note_stats(const otx_material *m, double clean, double filled)
-{
-    m->stats->lattice_faces = m->connection.level->face_count;
-    m->stats->singular_faces = m->phase.defect_count;
-    m->stats->singular_rings = m->rings.count;
-    m->stats->cancelled = m->phase.cancelled;
-    m->stats->gradient_error = m->phase.error;
-    m->stats->clean_share = clean;
-    m->stats->filled_share = filled;
 }
 
 static bool
 in_singular_ring(const otx_material *m, int32_t leaf_face)
 {
-    const otx_level *level = m->connection.level;
+    const otx_level *level = m->solved.connection.level;
     const int32_t face = otx_material_solved_face(m, leaf_face);
 
     for (int32_t i = level->face_first[face]; i < level->face_first[face + 1];
          ++i)
-        if (m->rings.singular[level->face_verts[i]])
+        if (m->solved.rings.singular[level->face_verts[i]])
             return true;
     return false;
 }
@@ -148,45 +129,50 @@ in_singular_ring(const otx_material *m, int32_t leaf_face)
 void
 otx_refill_clear(otx_material *m)
 {
-    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_level *leaf = otx_surface_leaf(m->job->surface);
 
     for (int32_t f = 0; f < leaf->face_count; ++f)
-        m->open[f] = m->settings->fill == OTX_FILL_ON && !leaf->face_hole[f] &&
-                     (in_singular_ring(m, f) ||
-                      m->distance[otx_material_solved_face(m, f)] <=
-                          m->settings->clear * m->cell);
+        m->laid.open[f] = m->settings->fill == OTX_FILL_ON &&
+                          !leaf->face_hole[f] &&
+                          (in_singular_ring(m, f) ||
+                           m->solved.distance[otx_material_solved_face(m, f)] <=
+                               m->settings->clear * m->cell);
 }
 
 otx_status
 otx_refill_choose(otx_material *m)
 {
-    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_level *leaf = otx_surface_leaf(m->job->surface);
     double clean = 0.0, filled = 0.0, all = 0.0;
 
     for (int32_t f = 0; f < leaf->face_count; ++f)
-        m->open[f] |=
-            m->settings->fill == OTX_FILL_ON && !leaf->face_hole[f] &&
-            (!is_unfolded(m, m->cells, f) || !is_sound(m, m->cells, f));
+        m->laid.open[f] |= m->settings->fill == OTX_FILL_ON &&
+                           !leaf->face_hole[f] &&
+                           (!is_unfolded(m, m->laid.cells, f) ||
+                            !is_sound(m, m->laid.cells, f));
     if (m->settings->fill == OTX_FILL_ON)
         OTX_TRY(open_narrow(m));
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {
-        const double distance = m->distance[otx_material_solved_face(m, f)];
+        const double distance =
+            m->solved.distance[otx_material_solved_face(m, f)];
         const double area = leaf->face_hole[f] ? 0.0 : face_area(m, f);
 
         all += area;
         clean += distance > m->cell ? area : 0.0;
-        filled += m->open[f] ? area : 0.0;
+        filled += m->laid.open[f] ? area : 0.0;
     }
-    note_stats(m, clean / all, filled / all);
+    m->tally.clean_share = clean / all;
+    m->tally.filled_share = filled / all;
     otx_note(
-        m->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
+        m->job->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
         "%d of %d faces hold a dislocation, %d have been cancelled; %.1f %% of "
         "the area is farther "
         "than a cell from any, %.1f %% is covered by patches",
-        (int)m->phase.defect_count, (int)m->connection.level->face_count,
-        (int)m->phase.cancelled, 100.0 * m->stats->clean_share,
-        100.0 * m->stats->filled_share);
+        (int)m->solved.phase.defect_count,
+        (int)m->solved.connection.level->face_count,
+        (int)m->solved.phase.cancelled, 100.0 * m->tally.clean_share,
+        100.0 * m->tally.filled_share);
     return OSDTEX_OK;
 }
 
@@ -195,16 +181,18 @@ otx_refill_choose(otx_material *m)
 otx_status
 otx_refill_run(otx_material *m, otx_mapping *out)
 {
-    const otx_method_given given = {
-        m->face_patch, m->patch_count, m->uvs, REACH * m->cell * m->texels};
-    otx_map_request request = *m->request;
+    const otx_patch_given given = {
+        m->laid.face_patch, m->laid.patch_count, m->laid.uvs,
+        REACH * m->cell * m->texels};
+    otx_map_request request = *m->job->request;
+    otx_job job = *m->job;
     otx_guide guide;
 
     OTX_TRY(otx_guide_from_field(
-        m->run, &m->field,
+        m->job->run, &m->solved.field,
         m->analysis.angle - m->settings->turn * OTX_PI / 180.0, &guide));
     request.guide = &guide;
     request.first_face = -1;
-    return otx_method_fill(
-        m->run, m->surface, m->exemplar, &request, &given, out, m->stats);
+    job.request = &request;
+    return otx_method_fill(&job, &given, out);
 }

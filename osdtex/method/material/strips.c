@@ -14,7 +14,7 @@ static const double SAME = 1e-4;
 static bool
 is_used(const otx_strips *s, int32_t face)
 {
-    return !s->m->open[face] && !s->leaf.level->face_hole[face];
+    return !s->m->laid.open[face] && !s->leaf.level->face_hole[face];
 }
 
 /* Least squares over the sides; zero where there is none. */
@@ -30,8 +30,8 @@ rise_of(const otx_strips *s, int32_t face)
     for (int32_t k = 0; k < size; ++k)
     {
         const otx_vec2 d = s->leaf.sides[first + k];
-        const double t =
-            s->m->cells[first + (k + 1) % size].y - s->m->cells[first + k].y;
+        const double t = s->m->laid.cells[first + (k + 1) % size].y -
+                         s->m->laid.cells[first + k].y;
 
         xx += d.x * d.x;
         xy += d.x * d.y;
@@ -55,10 +55,10 @@ measure_face(otx_strips *s, int32_t face)
     s->rise[face] = is_used(s, face) ? rise_of(s, face) : (otx_vec2){0, 0};
     for (int32_t i = leaf->face_first[face]; i < leaf->face_first[face + 1];
          ++i)
-        sum += s->m->cells[i].y;
+        sum += s->m->laid.cells[i].y;
     s->course[face] = (int32_t)floor(sum / otx_level_face_size(leaf, face));
     if (!(otx_vec2_length(s->rise[face]) > 0.0))
-        s->m->open[face] = !leaf->face_hole[face];
+        s->m->laid.open[face] = !leaf->face_hole[face];
 }
 
 /* -- edges --------------------------------------------------------------- */
@@ -83,8 +83,8 @@ relate(const otx_strips *s, int32_t edge)
     for (int i = 0; i < 2; ++i)
         otx_seam_corners(leaf, edge, f[i], corners[i]);
     for (int k = 0; k < 2; ++k)
-        d[k] =
-            s->m->cells[corners[1][k]].y - sense * s->m->cells[corners[0][k]].y;
+        d[k] = s->m->laid.cells[corners[1][k]].y -
+               sense * s->m->laid.cells[corners[0][k]].y;
     if (fabs(d[0] - d[1]) > SAME || fabs(d[0] - round(d[0])) > SAME)
         return 0;
     /* The course that the first face's is in the other's coordinates. */
@@ -131,7 +131,7 @@ contact_of(const otx_strips *s, int32_t edge)
 {
     const otx_level *leaf = s->leaf.level;
     const int32_t *f = leaf->edge_faces + 2 * (size_t)edge;
-    const double length = otx_seam_edge_length(s->m->surface, edge);
+    const double length = otx_seam_edge_length(s->m->job->surface, edge);
     const bool swap = s->of[f[0]] > s->of[f[1]];
     const int32_t faces[2] = {f[swap], f[!swap]};
     const int agree =
@@ -213,7 +213,7 @@ typedef struct tour
 static otx_status
 prepare_tour(const otx_strips *s, tour *t)
 {
-    otx_arena *scratch = s->m->run->scratch;
+    otx_arena *scratch = s->m->job->run->scratch;
 
     *t = (tour){
         OTX_ZNEW(scratch, int32_t, s->count + 2),
@@ -250,8 +250,8 @@ push_contacts(const otx_strips *s, tour *t, int32_t strip)
 otx_status
 otx_strips_visit(otx_strips *s, otx_strips_visitor *visitor)
 {
-    const otx_arena_mark mark = otx_arena_here(s->m->run->scratch);
-    otx_pqueue seeds = otx_pqueue_make(s->m->run->scratch);
+    const otx_arena_mark mark = otx_arena_here(s->m->job->run->scratch);
+    otx_pqueue seeds = otx_pqueue_make(s->m->job->run->scratch);
     otx_pqueue_entry seed, entry;
     tour t;
     bool fine = prepare_tour(s, &t) == OSDTEX_OK;
@@ -276,8 +276,8 @@ otx_strips_visit(otx_strips *s, otx_strips_visitor *visitor)
             fine = push_contacts(s, &t, strip);
         }
     }
-    otx_arena_release(s->m->run->scratch, mark);
-    return fine ? OSDTEX_OK : otx_fail_memory(s->m->run, "map");
+    otx_arena_release(s->m->job->run->scratch, mark);
+    return fine ? OSDTEX_OK : otx_fail_memory(s->m->job->run, "map");
 }
 
 /* -- the whole ----------------------------------------------------------- */
@@ -298,7 +298,7 @@ turn_strip(
 static otx_status
 allocate(otx_strips *s)
 {
-    otx_arena *scratch = s->m->run->scratch;
+    otx_arena *scratch = s->m->job->run->scratch;
     const otx_level *leaf = s->leaf.level;
 
     s->of = OTX_NEW(scratch, int32_t, leaf->face_count);
@@ -312,7 +312,7 @@ allocate(otx_strips *s)
     return s->of && s->sense && s->course && s->rise && s->edges && s->along &&
                    s->strips && s->contacts
                ? OSDTEX_OK
-               : otx_fail_memory(s->m->run, "map");
+               : otx_fail_memory(s->m->job->run, "map");
 }
 
 otx_status
@@ -323,11 +323,12 @@ otx_strips_find(const otx_material *m, otx_strips *out)
 
     *s = (otx_strips){.m = m};
     OTX_TRY(otx_connection_build(
-        m->run, m->surface, m->surface->level_count - 1, &s->leaf));
+        m->job->run, m->job->surface, m->job->surface->level_count - 1,
+        &s->leaf));
     OTX_TRY(allocate(s));
-    queue = OTX_NEW(m->run->scratch, int32_t, s->leaf.level->face_count);
+    queue = OTX_NEW(m->job->run->scratch, int32_t, s->leaf.level->face_count);
     if (!queue)
-        return otx_fail_memory(m->run, "map");
+        return otx_fail_memory(m->job->run, "map");
     for (int32_t f = 0; f < s->leaf.level->face_count; ++f)
         measure_face(s, f);
     for (int32_t e = 0; e < s->leaf.level->edge_count; ++e)

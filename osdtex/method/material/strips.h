@@ -55,7 +55,7 @@ typedef struct otx_strips
 static inline double
 otx_strips_across(const otx_strips *s, int32_t face, int32_t corner)
 {
-    const double t = s->m->cells[corner].y - s->course[face];
+    const double t = s->m->laid.cells[corner].y - s->course[face];
 
     return s->sense[face] > 0 ? t : 1.0 - t;
 }

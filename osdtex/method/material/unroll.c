@@ -111,12 +111,15 @@ static otx_status
 lay_all(otx_strips *s)
 {
     const otx_level *leaf = s->leaf.level;
-    int32_t *queue = OTX_NEW(s->m->run->scratch, int32_t, leaf->face_count);
-    uint8_t *laid = OTX_ZNEW(s->m->run->scratch, uint8_t, leaf->face_count);
-    uint8_t *seen = OTX_ZNEW(s->m->run->scratch, uint8_t, leaf->face_count);
+    int32_t *queue =
+        OTX_NEW(s->m->job->run->scratch, int32_t, leaf->face_count);
+    uint8_t *laid =
+        OTX_ZNEW(s->m->job->run->scratch, uint8_t, leaf->face_count);
+    uint8_t *seen =
+        OTX_ZNEW(s->m->job->run->scratch, uint8_t, leaf->face_count);
 
     if (!queue || !laid || !seen)
-        return otx_fail_memory(s->m->run, "map");
+        return otx_fail_memory(s->m->job->run, "map");
     for (int32_t seed = 0; seed < leaf->face_count; ++seed)
     {
         int32_t head = 0, tail = 0;
@@ -162,7 +165,7 @@ static otx_status
 group_tears(otx_strips *s, otx_strip_tears *t)
 {
     const otx_level *leaf = s->leaf.level;
-    otx_arena *scratch = s->m->run->scratch;
+    otx_arena *scratch = s->m->job->run->scratch;
     int32_t *last = OTX_NEW(scratch, int32_t, leaf->vert_count);
     int32_t *parent = OTX_NEW(scratch, int32_t, t->count);
     int32_t *number = OTX_NEW(scratch, int32_t, t->count);
@@ -170,7 +173,7 @@ group_tears(otx_strips *s, otx_strip_tears *t)
 
     t->lengths = OTX_ZNEW(scratch, double, t->count);
     if (!last || !parent || !number || !members || !t->lengths)
-        return otx_fail_memory(s->m->run, "map");
+        return otx_fail_memory(s->m->job->run, "map");
     for (int32_t v = 0; v < leaf->vert_count; ++v)
         last[v] = -1;
     for (int32_t i = 0; i < t->count; ++i)
@@ -212,11 +215,11 @@ static otx_status
 find_rings(otx_strips *s, const otx_strip_tears *t)
 {
     const otx_level *leaf = s->leaf.level;
-    double *low = OTX_NEW(s->m->run->scratch, double, s->count);
-    double *high = OTX_NEW(s->m->run->scratch, double, s->count);
+    double *low = OTX_NEW(s->m->job->run->scratch, double, s->count);
+    double *high = OTX_NEW(s->m->job->run->scratch, double, s->count);
 
     if (!low || !high)
-        return otx_fail_memory(s->m->run, "map");
+        return otx_fail_memory(s->m->job->run, "map");
     for (int32_t i = 0; i < s->count; ++i)
     {
         low[i] = INFINITY;
@@ -247,9 +250,10 @@ otx_unroll_measure(otx_strips *s, otx_strip_tears *out)
     const otx_level *leaf = s->leaf.level;
 
     *out = (otx_strip_tears){
-        .tears = OTX_NEW(s->m->run->scratch, otx_strip_tear, leaf->edge_count)};
+        .tears =
+            OTX_NEW(s->m->job->run->scratch, otx_strip_tear, leaf->edge_count)};
     if (!out->tears)
-        return otx_fail_memory(s->m->run, "map");
+        return otx_fail_memory(s->m->job->run, "map");
     OTX_TRY(lay_all(s));
     for (int32_t e = 0; e < leaf->edge_count; ++e)
     {
@@ -324,7 +328,7 @@ static otx_status
 make_nodes(otx_strips *s, const otx_strip_tears *t, nodes *n)
 {
     const otx_level *leaf = s->leaf.level;
-    otx_arena *scratch = s->m->run->scratch;
+    otx_arena *scratch = s->m->job->run->scratch;
     int32_t tear = 0;
 
     *n = (nodes){
@@ -431,7 +435,7 @@ static otx_status
 solve(otx_strips *s, nodes *n)
 {
     const otx_level *leaf = s->leaf.level;
-    otx_arena *scratch = s->m->run->scratch;
+    otx_arena *scratch = s->m->job->run->scratch;
     equations q = {
         OTX_NEW(
             scratch, otx_sparse_entry,
@@ -469,18 +473,18 @@ solve(otx_strips *s, nodes *n)
 otx_status
 otx_unroll_solve(otx_strips *s, const otx_strip_tears *tears)
 {
-    const otx_arena_mark mark = otx_arena_here(s->m->run->scratch);
+    const otx_arena_mark mark = otx_arena_here(s->m->job->run->scratch);
     nodes n;
     otx_status status = make_nodes(s, tears, &n);
 
     if (status == OSDTEX_OK && n.count > 0)
         status = solve(s, &n);
-    otx_arena_release(s->m->run->scratch, mark);
+    otx_arena_release(s->m->job->run->scratch, mark);
     if (status == OSDTEX_ERROR_MEMORY)
-        return otx_fail_memory(s->m->run, "map");
+        return otx_fail_memory(s->m->job->run, "map");
     if (status != OSDTEX_OK)
         return otx_fail(
-            s->m->run, status, "map", OTX_NOWHERE,
+            s->m->job->run, status, "map", OTX_NOWHERE,
             "the courses have no length: the surface has positions that are "
             "not finite");
     return OSDTEX_OK;

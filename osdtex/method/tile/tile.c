@@ -4,6 +4,7 @@
 #include "method/tile/orient.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define FIELD(member) offsetof(otx_tile_settings, member)
@@ -36,24 +37,34 @@ enum
 
 /* ------------------------------------------------------------- the level */
 
-/* The first level without faces that are no quads. */
+static bool
+has_quads_only(const otx_level *level)
+{
+    for (int32_t f = 0; f < level->face_count; ++f)
+        if (otx_level_face_size(level, f) != 4)
+            return false;
+    return true;
+}
+
+/* The first level without faces that are no quads; -1 none. */
+static int32_t
+first_quad_level(const otx_surface *surface)
+{
+    for (int32_t l = 0; l < surface->level_count; ++l)
+        if (has_quads_only(&surface->levels[l]))
+            return l;
+    return -1;
+}
+
 static otx_status
 quad_level(otx_run *run, const otx_surface *surface, int32_t *out)
 {
     const otx_cage *cage = surface->cage;
     const otx_where where = {cage->path, 0, -1, -1};
 
-    for (*out = 0; *out < surface->level_count; ++*out)
-    {
-        const otx_level *level = &surface->levels[*out];
-        int32_t face = 0;
-
-        while (face < level->face_count &&
-               otx_level_face_size(level, face) == 4)
-            ++face;
-        if (face == level->face_count)
-            return OSDTEX_OK;
-    }
+    *out = first_quad_level(surface);
+    if (*out >= 0)
+        return OSDTEX_OK;
     if (cage->scheme == OTX_SCHEME_CATMARK ||
         cage->scheme == OTX_SCHEME_BILINEAR)
         return otx_fail(
@@ -314,10 +325,37 @@ place_all(
 }
 
 static otx_status
-map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    const otx_map_request *request, const void *settings, otx_mapping *out,
-    otx_map_stats *stats)
+tiles(
+    const otx_job *job, const otx_tile_layout *layout, int32_t **names,
+    int32_t *count)
 {
+    int32_t level;
+    uint8_t *turns;
+
+    OTX_TRY(otx_tile_level(
+        job->run, job->surface, layout, job->settings, job->request->scale,
+        &level));
+    *count = job->surface->levels[level].face_count;
+    return otx_tile_assign(
+        job->run, job->surface, level, layout, job->settings, names, &turns);
+}
+
+static void
+report(otx_figures *figures, const otx_surface *surface, int32_t level)
+{
+    otx_figures_count(figures, "patches_above_cage", "patches", 0);
+    for (int32_t l = 0; l < surface->level_count; ++l)
+        otx_figures_item(
+            figures, "patches_by_level", "patches",
+            l == level ? surface->levels[l].face_count : 0);
+}
+
+static otx_status
+map(const otx_job *job, otx_mapping *out)
+{
+    otx_run *run = job->run;
+    const otx_surface *surface = job->surface;
+    const otx_exemplar *exemplar = job->exemplars;
     const otx_level *leaf = otx_surface_leaf(surface);
     const otx_tile_layout *layout = &exemplar->tiles;
     int32_t level, *names;
@@ -329,8 +367,8 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
             otx_where_file(exemplar->source_path),
             "this method needs a tiled texture; make one from the picture with "
             "osdtex tiles");
-    OTX_TRY(
-        otx_tile_level(run, surface, layout, settings, request->scale, &level));
+    OTX_TRY(otx_tile_level(
+        run, surface, layout, job->settings, job->request->scale, &level));
     *out = (otx_mapping){
         .surface = surface,
         .scale = mean_edge(surface, level) * exemplar->linear.width /
@@ -341,12 +379,27 @@ map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     };
     if (!out->uvs || !out->face_patch)
         return otx_fail_memory(run, STAGE);
-    otx_map_stats_stage(stats, "assign");
-    OTX_TRY(
-        otx_tile_assign(run, surface, level, layout, settings, &names, &turns));
-    stats->patches[level + 1] = out->patch_count;
-    otx_map_stats_stage(stats, "place");
+    otx_figures_stage(job->figures, "assign");
+    OTX_TRY(otx_tile_assign(
+        run, surface, level, layout, job->settings, &names, &turns));
+    report(job->figures, surface, level);
+    otx_figures_stage(job->figures, "place");
     return place_all(run, exemplar, surface, level, names, turns, out);
+}
+
+/* A tiled texture is for nothing else, where there are quads. */
+static otx_status
+applicable(const otx_job *job, otx_suitability *out)
+{
+    if (job->exemplars->tiles.cell == 0)
+        return OSDTEX_OK;
+    out->score = first_quad_level(job->surface) >= 0 ? 1.0 : 0.0;
+    snprintf(
+        out->why, sizeof out->why, "the exemplar is a tiled texture%s",
+        out->score > 0.0
+            ? ""
+            : ", but the surface has faces that are no quads at every level");
+    return OSDTEX_OK;
 }
 
 extern const otx_method otx_method_tile;
@@ -360,5 +413,7 @@ const otx_method otx_method_tile = {
     .options = OPTIONS,
     .option_count = OPTION_COUNT,
     .settings_bytes = sizeof(otx_tile_settings),
+    .applicable = applicable,
     .map = map,
+    .tiles = tiles,
 };

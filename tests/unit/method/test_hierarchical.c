@@ -5,7 +5,9 @@
 
 #include "mapping/measure.h"
 #include "mapping/seam.h"
-#include "method/hierarchical/hierarchical.h"
+#include "method/hierarchical/settings.h"
+#include "method/method.h"
+#include "patch/mosaic.h"
 
 #include <stdlib.h>
 
@@ -17,7 +19,7 @@ typedef struct job
     otx_map_request request;
     otx_hierarchical_settings settings;
     otx_mapping mapping;
-    otx_map_stats stats;
+    otx_figures figures;
 } job;
 
 /* Blobs of several sizes, so that there is something to match. */
@@ -75,8 +77,11 @@ static otx_status
 map(job *j)
 {
     return otx_method_map(
-        j->run, otx_method_find("hierarchical"), j->surface, j->exemplar,
-        &j->request, &j->settings, &j->mapping, &j->stats);
+        otx_method_find("hierarchical"),
+        &(otx_job){
+            j->run, j->surface, j->exemplar, 1, &j->request, &j->settings,
+            &j->figures},
+        &j->mapping);
 }
 
 static otx_measure
@@ -168,7 +173,7 @@ a_plane_that_may_continue_has_no_seam(void **state)
         set(j, "continuation", "allow");
         assert_int_equal(map(j), OSDTEX_OK);
         m = measure(j);
-        assert_true(j->stats.fit_count > 4);
+        assert_true(otx_figures_value(&j->figures, "fits") > 4);
         assert_true(m.seam_length == 0.0);
         assert_true(m.stretch_ratio_p95 < 1.001);
         test_run_destroy(j->run);

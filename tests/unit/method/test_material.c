@@ -45,10 +45,20 @@ make_exemplar(otx_run *run, bool lattice, bool wrap)
     return e;
 }
 
+/* A figure of the coordinates. */
+static double
+lattice(const otx_figures *figures, const char *key)
+{
+    char name[64];
+
+    snprintf(name, sizeof name, "lattice.%s", key);
+    return otx_figures_value(figures, name);
+}
+
 static otx_status
 map_with(
     otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    double scale, otx_mapping *out, otx_map_stats *stats)
+    double scale, otx_mapping *out, otx_figures *figures)
 {
     const otx_method *method = otx_method_find("material");
     void *settings = otx_arena_zalloc(run->arena, 1, method->settings_bytes);
@@ -56,16 +66,18 @@ map_with(
 
     otx_option_defaults(method->options, method->option_count, settings);
     return otx_method_map(
-        run, method, surface, exemplar, &request, settings, out, stats);
+        method,
+        &(otx_job){run, surface, exemplar, 1, &request, settings, figures},
+        out);
 }
 
 static otx_status
 map(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
     double scale, otx_mapping *out)
 {
-    otx_map_stats stats;
+    otx_figures figures;
 
-    return map_with(run, surface, exemplar, scale, out, &stats);
+    return map_with(run, surface, exemplar, scale, out, &figures);
 }
 
 static void
@@ -162,20 +174,24 @@ what_was_done_is_told(void **state)
     const field_surface *s = field_from_input(run, &in, 4);
     const otx_level *leaf = otx_surface_leaf(&s->surface);
     int32_t open = 0;
-    otx_map_stats stats;
+    otx_figures figures;
     otx_mapping m;
 
     (void)state;
     assert_int_equal(
-        map_with(run, &s->surface, &e, 1.5, &m, &stats), OSDTEX_OK);
-    assert_true(stats.lattice_faces > 0);
-    assert_true(stats.clean_share > 0.0 && stats.clean_share <= 1.0);
-    assert_true(stats.gradient_error > 0.0 && stats.gradient_error < 0.5);
+        map_with(run, &s->surface, &e, 1.5, &m, &figures), OSDTEX_OK);
+    assert_true(lattice(&figures, "faces") > 0);
+    assert_true(
+        lattice(&figures, "clean_area_share") > 0.0 &&
+        lattice(&figures, "clean_area_share") <= 1.0);
+    assert_true(
+        lattice(&figures, "gradient_error") > 0.0 &&
+        lattice(&figures, "gradient_error") < 0.5);
     assert_non_null(m.lattice);
-    assert_int_equal(m.lattice->defect_count, stats.singular_faces);
+    assert_true(m.lattice->defect_count == lattice(&figures, "singular_faces"));
     for (int32_t f = 0; f < leaf->face_count; ++f)
         open += m.lattice->open[f];
-    assert_int_equal(open > 0, stats.filled_share > 0.0);
+    assert_int_equal(open > 0, lattice(&figures, "filled_area_share") > 0.0);
     test_run_destroy(run);
 }
 
@@ -226,11 +242,11 @@ no_scraps_of_the_lattice_are_left(void **state)
     for (double scale = 1.0; scale < 6.0; scale *= 1.5)
     {
         const double cell = 0.25 * scale;
-        otx_map_stats stats;
+        otx_figures figures;
         otx_mapping m;
 
         assert_int_equal(
-            map_with(run, &s->surface, &e, scale, &m, &stats), OSDTEX_OK);
+            map_with(run, &s->surface, &e, scale, &m, &figures), OSDTEX_OK);
         check(&m, &e);
 
         uint8_t *open = OTX_NEW(run->arena, uint8_t, faces);
@@ -254,7 +270,7 @@ plain_meshes_have_lattices(void **state)
     otx_cage_options options = otx_cage_options_default();
     otx_surface surface;
     otx_cage cage;
-    otx_map_stats stats;
+    otx_figures figures;
     otx_mapping m;
 
     (void)state;
@@ -262,11 +278,11 @@ plain_meshes_have_lattices(void **state)
     cage = mesh_build(run, &in, &options);
     surface = mesh_refine(run, &cage, 0);
     assert_int_equal(surface.level_count, 1);
-    if (map_with(run, &surface, &e, 4.0, &m, &stats) != OSDTEX_OK)
+    if (map_with(run, &surface, &e, 4.0, &m, &figures) != OSDTEX_OK)
         fail_msg("%s", test_last_message(run));
     check(&m, &e);
-    assert_int_equal(stats.singular_faces, 0);
-    assert_true(stats.clean_share == 1.0);
+    assert_true(lattice(&figures, "singular_faces") == 0.0);
+    assert_true(lattice(&figures, "clean_area_share") == 1.0);
     test_run_destroy(run);
 }
 
@@ -276,7 +292,7 @@ plain_meshes_have_lattices(void **state)
 static otx_status
 map_lattice(
     otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    const char *fill, double scale, otx_mapping *out, otx_map_stats *stats)
+    const char *fill, double scale, otx_mapping *out, otx_figures *figures)
 {
     const otx_method *method = otx_method_find("material");
     void *settings = otx_arena_zalloc(run->arena, 1, method->settings_bytes);
@@ -296,7 +312,9 @@ map_lattice(
             run, method->options, method->option_count, settings, "fill", fill),
         OSDTEX_OK);
     return otx_method_map(
-        run, method, surface, exemplar, &request, settings, out, stats);
+        method,
+        &(otx_job){run, surface, exemplar, 1, &request, settings, figures},
+        out);
 }
 
 /* Something that has the exemplar's lattice and symmetry, from -2 to 2. */
@@ -377,17 +395,21 @@ singular_faces_do_not_tear(void **state)
     {
         const field_surface *s = field_from_input(run, &in, level);
         const otx_level *leaf = otx_surface_leaf(&s->surface);
-        otx_map_stats stats;
+        otx_figures figures;
         otx_mapping m;
 
-        if (map_lattice(run, &s->surface, &e, "blend", 1.5, &m, &stats) !=
+        if (map_lattice(run, &s->surface, &e, "blend", 1.5, &m, &figures) !=
             OSDTEX_OK)
             fail_msg("%s", test_last_message(run));
         check(&m, &e);
         assert_non_null(m.lookups);
-        assert_true(stats.blended_faces >= stats.singular_faces);
-        assert_true(stats.blended_share > 0.0 && stats.blended_share < 0.8);
-        assert_true(stats.filled_share == 0.0);
+        assert_true(
+            lattice(&figures, "blended_faces") >=
+            lattice(&figures, "singular_faces"));
+        assert_true(
+            lattice(&figures, "blended_area_share") > 0.0 &&
+            lattice(&figures, "blended_area_share") < 0.8);
+        assert_true(lattice(&figures, "filled_area_share") == 0.0);
         for (int32_t f = 0; f < leaf->face_count; ++f)
         {
             const int32_t size = otx_level_face_size(leaf, f);
@@ -420,7 +442,7 @@ whole_lattices_are_not_blended(void **state)
     const otx_exemplar e = make_exemplar(run, true, true);
     const otx_cage_input in = field_torus(run, 12, 8);
     const field_surface *s = field_from_input(run, &in, 4);
-    otx_map_stats stats;
+    otx_figures figures;
     otx_mapping m[2];
 
     (void)state;
@@ -428,10 +450,10 @@ whole_lattices_are_not_blended(void **state)
         assert_int_equal(
             map_lattice(
                 run, &s->surface, &e, i == 0 ? "on" : "blend", 4.0, &m[i],
-                &stats),
+                &figures),
             OSDTEX_OK);
-    assert_int_equal(stats.singular_rings, 0);
-    assert_int_equal(stats.blended_faces, 0);
+    assert_true(lattice(&figures, "singular_rings") == 0.0);
+    assert_true(lattice(&figures, "blended_faces") == 0.0);
     assert_null(m[1].lookups);
     assert_memory_equal(
         m[0].uvs, m[1].uvs,
@@ -447,12 +469,12 @@ what_does_not_tile_is_not_blended(void **state)
     const otx_exemplar e = make_exemplar(run, true, false);
     const otx_cage_input in = mesh_cube(run);
     const field_surface *s = field_from_input(run, &in, 3);
-    otx_map_stats stats;
+    otx_figures figures;
     otx_mapping m;
 
     (void)state;
     assert_int_equal(
-        map_lattice(run, &s->surface, &e, "blend", 1.5, &m, &stats),
+        map_lattice(run, &s->surface, &e, "blend", 1.5, &m, &figures),
         OSDTEX_ERROR_SUPPORT);
     assert_non_null(strstr(test_last_message(run), "tiles"));
     test_run_destroy(run);
@@ -484,7 +506,7 @@ make_bricks(otx_run *run)
 static otx_status
 map_courses(
     otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
-    double scale, otx_mapping *out, otx_map_stats *stats)
+    double scale, otx_mapping *out, otx_figures *figures)
 {
     const otx_method *method = otx_method_find("material");
     void *settings = otx_arena_zalloc(run->arena, 1, method->settings_bytes);
@@ -497,7 +519,9 @@ map_courses(
             "on"),
         OSDTEX_OK);
     return otx_method_map(
-        run, method, surface, exemplar, &request, settings, out, stats);
+        method,
+        &(otx_job){run, surface, exemplar, 1, &request, settings, figures},
+        out);
 }
 
 /* Radii differ by a factor of two between the outside of a torus and its
@@ -512,14 +536,14 @@ courses_keep_their_size(void **state)
     const field_surface *s = field_from_input(run, &in, 4);
     const otx_level *leaf = otx_surface_leaf(&s->surface);
     const double scale = 2.5;
-    otx_map_stats stats;
+    otx_figures figures;
     otx_mapping m;
 
     (void)state;
-    if (map_courses(run, &s->surface, &e, scale, &m, &stats) != OSDTEX_OK)
+    if (map_courses(run, &s->surface, &e, scale, &m, &figures) != OSDTEX_OK)
         fail_msg("%s", test_last_message(run));
     check(&m, &e);
-    assert_int_equal(stats.singular_faces, 0);
+    assert_true(lattice(&figures, "singular_faces") == 0.0);
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {
         const int32_t first = leaf->face_first[f];
@@ -550,7 +574,7 @@ courses_do_not_depend_on_threads(void **state)
     (void)state;
     for (int i = 0; i < 2; ++i)
     {
-        otx_map_stats stats;
+        otx_figures figures;
 
         runs[i] = test_run_create_with(NULL, i == 0 ? 1 : 3);
 
@@ -560,7 +584,7 @@ courses_do_not_depend_on_threads(void **state)
 
         *e = make_bricks(runs[i]);
         assert_int_equal(
-            map_courses(runs[i], &s->surface, e, 2.0, &m[i], &stats),
+            map_courses(runs[i], &s->surface, e, 2.0, &m[i], &figures),
             OSDTEX_OK);
         check(&m[i], e);
     }
@@ -579,12 +603,12 @@ courses_that_are_not_there_are_refused(void **state)
     const otx_exemplar e = make_exemplar(run, true, false);
     const otx_cage_input in = mesh_cube(run);
     const field_surface *s = field_from_input(run, &in, 3);
-    otx_map_stats stats;
+    otx_figures figures;
     otx_mapping m;
 
     (void)state;
     assert_int_equal(
-        map_courses(run, &s->surface, &e, 1.5, &m, &stats),
+        map_courses(run, &s->surface, &e, 1.5, &m, &figures),
         OSDTEX_ERROR_SUPPORT);
     assert_non_null(strstr(test_last_message(run), "courses"));
     test_run_destroy(run);
@@ -609,27 +633,25 @@ static void
 the_method_follows_the_exemplar(void **state)
 {
     otx_run *run = test_run_create();
-    const otx_exemplar lattice = make_exemplar(run, true, true);
+    const otx_exemplar lattice_of_cells = make_exemplar(run, true, true);
     const otx_exemplar noise = make_exemplar(run, false, true);
     const otx_cage_input in = mesh_cube(run);
     const field_surface *s = field_from_input(run, &in, 2);
     otx_map_request request = {.scale = 1.0, .first_face = -1};
+    otx_job job = {
+        run, &s->surface, &lattice_of_cells, 1, &request, NULL, NULL};
     const otx_method *method;
 
     (void)state;
-    assert_int_equal(
-        otx_method_choose(run, &s->surface, &lattice, &request, &method),
-        OSDTEX_OK);
+    assert_int_equal(otx_method_choose(&job, &method), OSDTEX_OK);
     assert_string_equal(method->name, "material");
     assert_non_null(strstr(test_last_message(run), "limbs"));
-    assert_int_equal(
-        otx_method_choose(run, &s->surface, &noise, &request, &method),
-        OSDTEX_OK);
+    job.exemplars = &noise;
+    assert_int_equal(otx_method_choose(&job, &method), OSDTEX_OK);
     assert_string_equal(method->name, "hierarchical");
     request.scale = 50.0;
-    assert_int_equal(
-        otx_method_choose(run, &s->surface, &lattice, &request, &method),
-        OSDTEX_OK);
+    job.exemplars = &lattice_of_cells;
+    assert_int_equal(otx_method_choose(&job, &method), OSDTEX_OK);
     assert_string_equal(method->name, "hierarchical");
     test_run_destroy(run);
 }

@@ -114,12 +114,11 @@ map_tiles(fixture *f, const otx_surface *surface, int32_t level)
 {
     const otx_tile_settings settings = {level, OTX_TILE_SPREAD, 0, 1};
     const otx_map_request request = {.scale = 1.0, .first_face = -1};
-    otx_map_stats stats;
+    const otx_job job = {
+        f->run, surface, &f->exemplar, 1, &request, &settings, NULL};
     otx_mapping mapping;
 
-    if (otx_method_map(
-            f->run, otx_method_find("tile"), surface, &f->exemplar, &request,
-            &settings, &mapping, &stats) != OSDTEX_OK)
+    if (otx_method_map(otx_method_find("tile"), &job, &mapping) != OSDTEX_OK)
         fail_msg("%s", test_last_message(f->run));
     return mapping;
 }

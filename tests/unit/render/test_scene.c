@@ -1,6 +1,7 @@
 /* test_scene.c -- scenes are checked before they are traced, and made from
  * mappings; stretch is known for known shapes. */
 #include "render/distortion.h"
+#include "render/mapped_scene.h"
 #include "scenes.h"
 
 #include <stdlib.h>

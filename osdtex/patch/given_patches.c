@@ -1,0 +1,93 @@
+/* given_patches.c -- surfaces that are textured in part already.
+ *
+ * Another method has laid its texture where it can; the rest is covered by
+ * patches that continue it. What is given takes part in the cut and in the
+ * relaxation like any patch, but offers nothing beyond its own faces. */
+#include "patch/given_patches.h"
+
+#include <string.h>
+
+void
+otx_given_take(const otx_mosaic_job *job, otx_cover *cover)
+{
+    const otx_level *leaf = job->leaves.level;
+    const otx_patch_given *given = job->given;
+
+    cover->patch_count = given->patch_count;
+    memcpy(
+        cover->uvs, given->uvs,
+        (size_t)leaf->corner_count * sizeof *cover->uvs);
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        cover->face_patch[f] = leaf->face_hole[f] ? -1 : given->face_patch[f];
+        if (cover->face_patch[f] >= 0)
+            cover->done_area += job->leaves.areas[f];
+    }
+}
+
+otx_status
+otx_given_region(
+    const otx_mosaic_job *job, const otx_cover *cover, otx_cluster *out)
+{
+    const otx_level *leaf = job->leaves.level;
+    int32_t *faces = OTX_NEW(job->run->arena, int32_t, leaf->face_count);
+
+    if (!faces)
+        return otx_fail_memory(job->run, "map");
+    *out = (otx_cluster){job->leaves.level_index, 0, faces, 0.0};
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        if (cover->face_patch[f] < 0 && !leaf->face_hole[f])
+        {
+            faces[out->face_count++] = f;
+            out->area += job->leaves.areas[f];
+        }
+    return OSDTEX_OK;
+}
+
+/* The faces of one given patch, at their UVs. */
+static otx_status
+offer_patch(const otx_mosaic *m, int32_t patch, int32_t count, otx_offer *out)
+{
+    const otx_level *leaf = m->job.leaves.level;
+    int32_t *faces = OTX_NEW(m->job.run->arena, int32_t, count);
+    int32_t *first = OTX_NEW(m->job.run->arena, int32_t, count + 1);
+    int32_t corners = 0, n = 0;
+    otx_vec2 *uvs;
+
+    if (!faces || !first)
+        return otx_fail_memory(m->job.run, "cut");
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        if (m->job.given->face_patch[f] == patch && !leaf->face_hole[f])
+        {
+            faces[n] = f;
+            first[n++] = corners;
+            corners += otx_level_face_size(leaf, f);
+        }
+    first[n] = corners;
+    uvs = OTX_NEW(m->job.run->arena, otx_vec2, corners);
+    if (!uvs)
+        return otx_fail_memory(m->job.run, "cut");
+    for (int32_t i = 0; i < n; ++i)
+        memcpy(
+            uvs + first[i], m->job.given->uvs + leaf->face_first[faces[i]],
+            (size_t)(first[i + 1] - first[i]) * sizeof *uvs);
+    *out = (otx_offer){n, faces, uvs, first, NULL, 0};
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_given_offers(const otx_mosaic *m, otx_offer *offers)
+{
+    const otx_level *leaf = m->job.leaves.level;
+    int32_t *counts =
+        OTX_ZNEW(m->job.run->scratch, int32_t, m->job.given->patch_count + 1);
+
+    if (!counts)
+        return otx_fail_memory(m->job.run, "cut");
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        if (m->job.given->face_patch[f] >= 0 && !leaf->face_hole[f])
+            ++counts[m->job.given->face_patch[f]];
+    for (int32_t p = 0; p < m->job.given->patch_count; ++p)
+        OTX_TRY(offer_patch(m, p, counts[p], &offers[p]));
+    return OSDTEX_OK;
+}
