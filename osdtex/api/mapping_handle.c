@@ -113,7 +113,7 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
     OTX_TRY(choose_method(run, ours.method, handle));
     OTX_TRY(otx_method_settings_read(
         run, handle->method, ours.settings, ours.setting_count,
-        &exemplar->exemplar, &handle->settings));
+        &exemplar->exemplar, &surface->cage->cage, &handle->settings));
     run->seed = ours.seed;
     job = job_of(run, handle);
     OTX_TRY(otx_method_map(handle->method, &job, &handle->mapping));

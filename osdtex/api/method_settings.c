@@ -5,7 +5,8 @@
 otx_status
 otx_method_settings_read(
     otx_run *run, const otx_method *method, const osdtex_setting *settings,
-    int32_t setting_count, const otx_exemplar *exemplar, const void **out)
+    int32_t setting_count, const otx_exemplar *exemplar, const otx_cage *cage,
+    const void **out)
 {
     void *values = otx_arena_zalloc(run->arena, method->settings_bytes, 1);
 
@@ -25,7 +26,7 @@ otx_method_settings_read(
             s->value));
     }
     if (method->resolve)
-        method->resolve(values, exemplar);
+        method->resolve(values, exemplar, cage);
     *out = values;
     return OSDTEX_OK;
 }

@@ -7,9 +7,10 @@
 #include <osdtex/osdtex.h>
 
 /* The defaults of `method` with the caller's settings over them, as they come
- * out for this exemplar, in run->arena. ARGUMENT, MEMORY. */
+ * out for this exemplar and cage, in run->arena. ARGUMENT, MEMORY. */
 otx_status otx_method_settings_read(
     otx_run *run, const otx_method *method, const osdtex_setting *settings,
-    int32_t setting_count, const otx_exemplar *exemplar, const void **out);
+    int32_t setting_count, const otx_exemplar *exemplar, const otx_cage *cage,
+    const void **out);
 
 #endif

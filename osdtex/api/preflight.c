@@ -72,7 +72,7 @@ check_method(look *l)
     OTX_TRY(otx_resolve_method(l->run, l->map.method, &method));
     return otx_method_settings_read(
         l->run, method, l->map.settings, l->map.setting_count,
-        &l->exemplar->exemplar, &settings);
+        &l->exemplar->exemplar, &l->cage->cage, &settings);
 }
 
 static double

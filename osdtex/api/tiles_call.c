@@ -105,7 +105,7 @@ choose_names(
             "which a mesh needs");
     OTX_TRY(otx_method_settings_read(
         run, method, options->settings, options->setting_count, exemplar,
-        &job.settings));
+        s->cage, &job.settings));
     OTX_TRY(otx_tileset_plan(run, exemplar, out, &layout));
     OTX_TRY(method->tiles(&job, &layout, &names, &face_count));
     qsort(names, (size_t)face_count, sizeof *names, compare_names);

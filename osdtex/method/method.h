@@ -64,9 +64,10 @@ typedef struct otx_method
     size_t settings_bytes;
     bool mixes;  /* several exemplars */
     bool begins; /* with the user's first patch */
-    /* Replaces automatic settings by what they come to for an exemplar; they
-     * stay as they are when called again. NULL: none are. */
-    void (*resolve)(void *settings, const otx_exemplar *exemplar);
+    /* Replaces automatic settings by what they come to for an exemplar and a
+     * cage; they stay as they are when called again. NULL: none are. */
+    void (*resolve)(
+        void *settings, const otx_exemplar *exemplar, const otx_cage *cage);
     /* Whether `auto` is to take it, before settings are read: job->settings is
      * NULL. Says no by a score of 0; fails only as `map` may. NULL: never. */
     otx_status (*applicable)(const otx_job *job, otx_suitability *out);

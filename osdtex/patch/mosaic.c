@@ -18,7 +18,7 @@ list_supplies(otx_mosaic *m, const otx_guide *guides)
         s->exemplar = &m->job.exemplars[k];
         s->settings = m->job.settings;
         s->guide = guides && guides[k].directions ? &guides[k] : NULL;
-        otx_patch_resolve(&s->settings, m->job.exemplars);
+        otx_patch_resolve(&s->settings, m->job.exemplars, m->job.surface->cage);
         if (k > 0)
             otx_patch_adapt(&s->settings, m->job.exemplars, s->exemplar);
     }

@@ -61,12 +61,23 @@ otx_patch_adapt(
         s->tau = visible_error(exemplar);
 }
 
+/* A plain mesh has no subdivision: its hierarchy is grown, as the paper's is
+ * on meshes [Soler02, sec. 3.1]. */
+static bool
+is_plain(const otx_cage *cage)
+{
+    return cage && cage->scheme == OTX_SCHEME_NONE;
+}
+
 void
-otx_patch_resolve(otx_patch_settings *s, const otx_exemplar *exemplar)
+otx_patch_resolve(
+    otx_patch_settings *s, const otx_exemplar *exemplar, const otx_cage *cage)
 {
     const bool paper = s->mode == OTX_PATCH_PAPER;
 
-    choose(&s->clusters, paper, OTX_PATCH_SUBDIVISION, OTX_PATCH_GROWN);
+    choose(
+        &s->clusters, paper && !is_plain(cage), OTX_PATCH_SUBDIVISION,
+        OTX_PATCH_GROWN);
     choose(&s->flatten, paper, OTX_PATCH_RECURSIVE, OTX_PATCH_JOINT);
     choose(&s->cut, paper, OTX_PATCH_OFF, OTX_PATCH_ON);
     choose(&s->relax, paper, OTX_PATCH_RELAX_LOOP, OTX_PATCH_RELAX_GLOBAL);

@@ -3,6 +3,7 @@
 #define OTX_PATCH_PATCH_SETTINGS_H
 
 #include "exemplar/exemplar.h"
+#include "surface/cage.h"
 
 typedef enum otx_patch_mode
 {
@@ -53,9 +54,11 @@ typedef struct otx_patch_settings
     double transition; /* texels, -1 auto */
 } otx_patch_settings;
 
-/* Replaces every "auto" by what it means for this mode and exemplar. */
-void
-otx_patch_resolve(otx_patch_settings *settings, const otx_exemplar *exemplar);
+/* Replaces every "auto" by what it means for this mode, exemplar
+ * and cage. */
+void otx_patch_resolve(
+    otx_patch_settings *settings, const otx_exemplar *exemplar,
+    const otx_cage *cage);
 
 /* Makes settings that were resolved for `first` those of another exemplar: what
  * is as it comes out for the first by itself becomes so for this one. */

@@ -160,9 +160,9 @@ applicable(const otx_job *job, otx_suitability *out)
 }
 
 static void
-resolve(void *settings, const otx_exemplar *exemplar)
+resolve(void *settings, const otx_exemplar *exemplar, const otx_cage *cage)
 {
-    otx_patch_resolve(settings, exemplar);
+    otx_patch_resolve(settings, exemplar, cage);
 }
 
 const otx_method otx_method_hierarchical = {

@@ -22,7 +22,8 @@ const otx_option otx_hierarchical_options[] = {
      "published, patch by patch"},
     {"clusters", OTX_OPTION_CHOICE, FIELD(clusters), 0, 0, 0, CLUSTERS,
      "What patches start from: clusters grown over the hierarchy, or the "
-     "faces of the cage and their subdivision; auto follows mode"},
+     "faces of the cage and their subdivision; auto follows mode, and grows "
+     "them on plain meshes"},
     {"patch", OTX_OPTION_REAL, FIELD(patch), 0, 4096, 0, NULL,
      "Diameter that grown clusters aim for, in texels; 0 follows the "
      "exemplar"},

@@ -228,7 +228,7 @@ prepare(
     }
     otx_option_defaults(method->options, method->option_count, settings);
     if (method->resolve)
-        method->resolve(settings, t->exemplar);
+        method->resolve(settings, t->exemplar, t->surface.cage);
     paint(run, t->exemplar);
     return t;
 }
