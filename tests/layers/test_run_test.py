@@ -68,6 +68,17 @@ class RunTest(unittest.TestCase):
     def test_a_crash(self):
         self.assertEqual(self.run_test("kill -SEGV $$")[0], 139)
 
+    def test_c_says_why(self):
+        """No case is skipped without a sentence a few lines above."""
+        for path in (ROOT / "tests").rglob("*.c"):
+            lines = path.read_text().split("\n")
+            for i, line in enumerate(lines):
+                if line.strip() == "skip();":
+                    above = "\n".join(lines[max(0, i - 8):i])
+                    self.assertRegex(
+                        above, "skipped: |has_what_it_needs",
+                        f"{path}:{i + 1}: use test_skip()")
+
     def summary(self, **words):
         log = self.folder / "log"
         log.write_text(LOG.format(**words))

@@ -76,7 +76,7 @@ a_configuration_is_shared_by_the_environment(void **state)
     (void)state;
 
     if (access(SHARED_DATA, R_OK) != 0)
-        skip();
+        test_skip("no " SHARED_DATA "/ocio");
     run = test_run_create();
     assert_int_equal(otx_colour_open(run, CG, NULL, &colour), OSDTEX_OK);
     check_rows(run, &colour, alone, sizeof alone / sizeof alone[0]);
@@ -94,7 +94,7 @@ a_space_that_is_missing_is_said(void **state)
     (void)state;
 
     if (access(SHARED_DATA, R_OK) != 0)
-        skip();
+        test_skip("no " SHARED_DATA "/ocio");
     run = test_run_create();
     assert_int_equal(otx_colour_open(run, MINI, NULL, &colour), OSDTEX_OK);
     assert_int_equal(
