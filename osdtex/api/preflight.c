@@ -6,6 +6,7 @@
 #include "api/method_settings.h"
 #include "bake/atlas.h"
 #include "bake/uv_choice.h"
+#include "image/udim.h"
 #include "method/scale_check.h"
 #include "surface/draft.h"
 
@@ -193,6 +194,25 @@ tell_density(const look *l)
             f->density, 1.0 / ratio);
 }
 
+/* Whether the bake has the one tile that is asked for. How many tiles an atlas
+ * takes is known but roughly.
+ *
+ *   tile_count  of an atlas; 0: own UVs */
+static otx_status
+check_udim(const look *l, int32_t tile_count)
+{
+    const int32_t tile = l->bake.udim;
+    const bool is_there =
+        tile_count > 0 ? tile - OTX_UDIM_FIRST <= tile_count + tile_count / 4
+                       : otx_uv_survey_has_tile(&l->draft, tile);
+
+    if (tile == 0 || is_there)
+        return OSDTEX_OK;
+    return otx_fail(
+        l->run, OSDTEX_ERROR_ARGUMENT, "bake", OTX_NOWHERE,
+        "the bake has no tile %d", (int)tile);
+}
+
 static otx_status
 pack_atlas(look *l)
 {
@@ -202,7 +222,7 @@ pack_atlas(look *l)
 
     OTX_TRY(otx_atlas_pack(l->run, &l->draft, &how, &atlas));
     l->forecast.bake_density = atlas.texels_per_unit;
-    return OSDTEX_OK;
+    return check_udim(l, atlas.tile_count);
 }
 
 static otx_status
@@ -224,7 +244,9 @@ check_bake(look *l)
     l->forecast.uv_overlap = survey.overlap;
     if (source == OTX_LAYOUT_ATLAS)
         OTX_TRY(pack_atlas(l));
-    else if (survey.side > 0.0)
+    else
+        OTX_TRY(check_udim(l, 0));
+    if (source == OTX_LAYOUT_OWN && survey.side > 0.0)
         l->forecast.bake_density = l->bake.resolution / survey.side;
     if (l->forecast.bake_density > 0.0)
         tell_density(l);

@@ -326,3 +326,36 @@ otx_uv_survey_run(otx_run *run, const otx_surface *surface, otx_uv_survey *out)
     otx_arena_release(run->scratch, mark);
     return status;
 }
+
+/* Whether a face's bounding box reaches into the unit square at (u, v). */
+static bool
+reaches_into(const survey *s, int32_t face, double u, double v)
+{
+    const double corner[2] = {u, v};
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    bool reaches = true;
+
+    for (int32_t c = s->leaf->face_first[face];
+         c < s->leaf->face_first[face + 1]; ++c)
+        for (int k = 0; k < 2; ++k)
+        {
+            low[k] = fmin(low[k], (double)uv_at(s, c)[k]);
+            high[k] = fmax(high[k], (double)uv_at(s, c)[k]);
+        }
+    for (int k = 0; k < 2; ++k)
+        reaches = reaches && high[k] > corner[k] + OTX_UDIM_OVER &&
+                  low[k] < corner[k] + 1.0 - OTX_UDIM_OVER;
+    return reaches;
+}
+
+bool
+otx_uv_survey_has_tile(const otx_surface *surface, int32_t tile)
+{
+    const survey s = {.surface = surface, .leaf = otx_surface_leaf(surface)};
+
+    for (int32_t f = 0; f < s.leaf->face_count; ++f)
+        if (!is_hole(&s, f) &&
+            reaches_into(&s, f, otx_udim_column(tile), otx_udim_row(tile)))
+            return true;
+    return false;
+}

@@ -28,4 +28,7 @@ typedef struct otx_uv_survey
 otx_status
 otx_uv_survey_run(otx_run *run, const otx_surface *surface, otx_uv_survey *out);
 
+/* Whether a face that is no hole reaches into a UDIM tile. */
+bool otx_uv_survey_has_tile(const otx_surface *surface, int32_t tile);
+
 #endif

@@ -149,6 +149,14 @@ class Preflight(ProgramTest):
                 result.stderr.count("osdtex: error: "), 1, result.stderr)
             self.assert_nothing_written()
 
+    def test_tiles_that_are_not_there(self):
+        """Own UVs on 1001 and 1002."""
+        cage = grid(self.folder / "two.obj", 8, lambda u, v: (2 * u, v))
+        for tile, code in (1001, 0), (1002, 0), (1003, 1), (1011, 1):
+            self.assert_exit(self.look("bake", cage, "--udim", tile), code)
+        self.assert_error(
+            self.look("bake", JACK, "--udim", 1009), 1, "has no tile 1009")
+
     def test_other_files(self):
         scene = self.folder / "scene.usda"
         scene.write_text("#usda 1.0\n")
