@@ -17,26 +17,27 @@ from pathlib import Path
 from blenders import DELTA_E, all_blenders, debian, is_alike, look, own_picture
 from oracles import ROOT, need, run
 
-LEVEL = 3
 STONES, GRASS = "stones_open.png", "grass_tile.png"
-# Cage, exemplar, coordinates to bake onto, side of a tile and its density.
+# Cage, exemplar, level, coordinates to bake onto, side of a tile and its density.
+# Few faces want a high level: quads that are large in the picture are bent, and
+# no two renderers cut them into the same triangles.
 CASES = [
-    ("creased", STONES, "atlas", 2048, None),
-    ("ngons_and_triangles", STONES, "atlas", 2048, None),
-    ("uv_seams", GRASS, "own", 4096, None),
-    ("creature", GRASS, "atlas", 2048, None),
-    ("creature", GRASS, "atlas", 1024, 250),
+    ("creased", STONES, 4, "atlas", 2048, None),
+    ("ngons_and_triangles", STONES, 4, "atlas", 2048, None),
+    ("uv_seams", STONES, 4, "own", 2048, None),
+    ("creature", GRASS, 3, "atlas", 2048, None),
+    ("creature", GRASS, 3, "atlas", 1024, 250),
 ]
 
 
 def bake(osdtex, case, folder, *more):
-    cage, exemplar, uvs, side, density = case
+    cage, exemplar, level, uvs, side, density = case
     if density:
         more += ("--texels-per-unit", density)
     run(
         osdtex, "map", ROOT / f"models/cages/{cage}.obj",
         ROOT / "models/exemplars" / exemplar, "-o", folder / "a.obj", "--level",
-        LEVEL, "--bake", "--uvs", uvs, "--resolution",
+        level, "--bake", "--uvs", uvs, "--resolution",
         side, *more, "-q", cwd=ROOT,
     )
     return own_picture(osdtex, folder)
@@ -52,21 +53,21 @@ def check(osdtex, case, folder):
     camera = bake(osdtex, case, folder)
     ok = True
     for name, blender in all_blenders():
-        said = look(blender, folder / "a_cage.obj", camera, LEVEL)
+        said = look(blender, folder / "a_cage.obj", camera, case[2])
         print(name, *case, said, flush=True)
         ok = ok and is_alike(said)
-        ok = ok and (case[4] is None or is_tiled(folder, said))
+        ok = ok and (case[5] is None or is_tiled(folder, said))
     return ok
 
 
 def faults_are_seen(osdtex, folder):
     """Blender's default rule for UVs, and ACEScg numbers taken for Rec.709: so
     that osdtex_import cannot know better, without NAME.mtlx."""
-    case = ("creature", GRASS, "atlas", 1024, None)
+    case = ("creature", GRASS, 3, "atlas", 1024, None)
     camera = bake(osdtex, case, folder, "--to", "ACEScg")
     (folder / "a.mtlx").unlink()
-    colours = look(debian(), folder / "a_cage.obj", camera, LEVEL)
-    rule = look(debian(), folder / "a_cage.obj", camera, LEVEL, "SMOOTH_ALL")
+    colours = look(debian(), folder / "a_cage.obj", camera, 3)
+    rule = look(debian(), folder / "a_cage.obj", camera, 3, "SMOOTH_ALL")
     print("wrong on purpose", colours, rule, flush=True)
     return float(colours["difference"][3]) > 3 * DELTA_E and not is_alike(rule)
 
