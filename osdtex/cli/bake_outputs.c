@@ -233,8 +233,8 @@ otx_bake_outputs_may_be(const char *cage, const char *path)
         return false;
     otx_path_list_add(&pair, cage);
     otx_path_list_add(&pair, path);
-    same = pair.count == 2 && pair.items[0].has_folder &&
-           pair.items[1].has_folder &&
+    same = pair.count == 2 && !strchr(pair.items[0].rest, '/') &&
+           !strchr(pair.items[1].rest, '/') &&
            pair.items[0].folder_device == pair.items[1].folder_device &&
            pair.items[0].folder_inode == pair.items[1].folder_inode;
     otx_path_list_free(&pair);

@@ -1,6 +1,7 @@
 /* farm_command.c -- osdtex plan and osdtex run: a job for a farm, and a task
  * of it. */
 #include "cli/session.h"
+#include "cli/task.h"
 #include "cli/value.h"
 #include "farm/engine.h"
 
@@ -72,24 +73,55 @@ read_job(const otx_flag_values *values, otx_job *out)
     return OTX_EXIT_DATA;
 }
 
-static int
-plan(
-    const otx_flag_values *values, const otx_engine *engine, const otx_job *job)
+/* Whether none of the engine's files is somebody's own. */
+static bool
+may_replace(const otx_engine *engine, const char *folder)
 {
-    const char *output = values->text[OTX_FLAG_OUTPUT];
-    char own[OTX_JOB_PATH_BYTES], error[OTX_JOB_ERROR_BYTES];
+    char path[OTX_JOB_PATH_BYTES];
 
-    if (!make_folder(output))
+    for (int i = 0; i < engine->file_count; ++i)
     {
-        otx_session_refuse("the folder '%s' cannot be made", output);
-        return OTX_EXIT_IO;
+        otx_engine_path(engine, i, folder, path);
+        if (otx_engine_may_replace(engine, i, path))
+            continue;
+        otx_session_refuse(
+            "'%s' is there and was not written by osdtex plan; choose another "
+            "folder",
+            path);
+        return false;
     }
-    if (!otx_engine_write(
-            engine, job, program_path(values, own), output, error))
+    return true;
+}
+
+/* The engine's files, as one set. */
+static osdtex_status
+write_files(
+    otx_session *session, const otx_engine *engine, const otx_job *job,
+    const char *program, const char *folder)
+{
+    char path[OTX_JOB_PATH_BYTES];
+    const char *temporary;
+
+    for (int i = 0; i < engine->file_count; ++i)
     {
-        otx_session_refuse("%s", error);
-        return OTX_EXIT_IO;
+        osdtex_status status;
+
+        otx_engine_path(engine, i, folder, path);
+        status = osdtex_outputs_add(session->context, path, &temporary);
+        if (status != OSDTEX_OK)
+            return status;
+        if (!otx_engine_write(engine, i, job, program, temporary))
+        {
+            otx_session_refuse("'%s' cannot be written", path);
+            return OSDTEX_ERROR_IO;
+        }
     }
+    return otx_session_commit(session);
+}
+
+static void
+say_how(const otx_engine *engine, const otx_job *job, const char *folder)
+{
     printf("%d tasks: ", job->task_count);
     for (const char *c = engine->submit; *c; ++c)
     {
@@ -98,11 +130,42 @@ plan(
             putchar(*c);
             continue;
         }
-        printf("%.*s", folder_length(output), output);
+        otx_value_put_word(stdout, folder, folder_length(folder));
         ++c;
     }
     putchar('\n');
-    return OTX_EXIT_OK;
+}
+
+static int
+plan(
+    const otx_flag_values *values, const otx_engine *engine, const otx_job *job)
+{
+    const char *output = values->text[OTX_FLAG_OUTPUT];
+    char own[OTX_JOB_PATH_BYTES], error[OTX_JOB_ERROR_BYTES];
+    const char *program = program_path(values, own);
+    osdtex_status status;
+    otx_session session;
+
+    if (!otx_engine_check(engine, job, program, error))
+    {
+        otx_session_refuse("%s", error);
+        return OTX_EXIT_DATA;
+    }
+    if (!otx_task_are_apart(job))
+        return OTX_EXIT_DATA;
+    if (!make_folder(output))
+    {
+        otx_session_refuse("the folder '%s' cannot be made", output);
+        return OTX_EXIT_IO;
+    }
+    if (!may_replace(engine, output))
+        return OTX_EXIT_IO;
+    if (!otx_session_begin(&session, values))
+        return session.exit_code;
+    status = write_files(&session, engine, job, program, output);
+    if (status == OSDTEX_OK)
+        say_how(engine, job, output);
+    return otx_session_end(&session, status);
 }
 
 int
@@ -131,55 +194,19 @@ otx_plan_command_run(const otx_flag_values *values)
 
 /* ---------------------------------------------------------------------- */
 
-/* A task is a command line, so it is run as one, with --update: what is done
- * is not done again. */
-static int
-run_words(const otx_job *job, int task, json_t *words)
-{
-    const otx_command *command = otx_command_find(otx_job_command(job, task));
-    const size_t count = json_array_size(words);
-    char **argv = calloc(count + 3, sizeof *argv);
-    otx_flag_values values;
-    int code = OTX_EXIT_USAGE;
-
-    if (!argv)
-        return OTX_EXIT_LIMIT;
-    argv[0] = strdup(command->name);
-    argv[1] = strdup("--update");
-    for (size_t i = 0; i < count; ++i)
-        argv[i + 2] = strdup(json_string_value(json_array_get(words, i)));
-    if (!otx_flag_parse((int)count + 2, argv, command->flags, &values))
-        code = OTX_EXIT_USAGE;
-    else if (
-        values.operand_count < command->operands_min ||
-        values.operand_count > command->operands_max)
-        otx_session_refuse(
-            "task %d: osdtex %s takes %s", task, command->name,
-            command->operands);
-    else
-    {
-        values.job = job->path;
-        code = command->run(&values);
-    }
-    for (size_t i = 0; i < count + 2; ++i)
-        free(argv[i]);
-    free(argv);
-    return code;
-}
-
 static int
 run_task(const otx_flag_values *values, const otx_job *job)
 {
     const char *text = values->text[OTX_FLAG_TASK];
-    json_t *words;
-    int64_t task;
-    int code;
+    otx_task task;
+    int64_t index;
+    int code = OTX_EXIT_USAGE;
 
     if (!text)
         return otx_session_refuse(
             "say which task to run: --task, a number from 0 to %d",
             job->task_count - 1);
-    if (!otx_value_int(text, 0, job->task_count - 1, &task))
+    if (!otx_value_int(text, 0, job->task_count - 1, &index))
         return otx_session_refuse(
             "--task takes a number from 0 to %d, not '%s'", job->task_count - 1,
             text);
@@ -188,9 +215,9 @@ run_task(const otx_flag_values *values, const otx_job *job)
         otx_session_refuse("the folder '%s' cannot be entered", job->folder);
         return OTX_EXIT_IO;
     }
-    words = otx_job_words(job, (int)task);
-    code = run_words(job, (int)task, words);
-    json_decref(words);
+    if (otx_task_parse(job, (int)index, &task))
+        code = task.command->run(&task.values);
+    otx_task_free(&task);
     return code;
 }
 

@@ -1,34 +1,62 @@
 /* path_list.c -- files by name and by what they are. */
 #include "cli/path_list.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 
-static const char *
-base_of(const char *name)
+/* Takes "./" and doubled slashes out of a name, in place. */
+static void
+tidy(char *name)
 {
-    const char *slash = strrchr(name, '/');
+    char *to = name;
 
-    return slash ? slash + 1 : name;
+    for (const char *from = name; *from;)
+    {
+        const size_t length = strcspn(from, "/");
+
+        if (length > 0 && !(length == 1 && *from == '.'))
+        {
+            memmove(to, from, length);
+            to += length;
+            if (from[length])
+                *to++ = '/';
+        }
+        from += length + (from[length] == '/');
+    }
+    *to = '\0';
 }
 
-/* Looks up the folder that a name is in. */
+/* Looks up the nearest folder of a name that is there. */
 static bool
 find_folder(otx_path *path)
 {
-    const size_t length = (size_t)(base_of(path->name) - path->name);
-    char *folder = length > 0 ? strndup(path->name, length) : strdup(".");
+    char *folder = strdup(path->name);
+    size_t length = folder ? strlen(folder) : 0;
     struct stat info;
-    const bool found = folder && stat(folder, &info) == 0;
+    bool found = false;
 
+    while (folder && !found)
+    {
+        while (length > 0 && folder[length - 1] != '/')
+            --length;
+        folder[length] = '\0';
+        found = stat(length > 0 ? folder : ".", &info) == 0;
+        if (length == 0)
+            break;
+        length -= !found;
+    }
     free(folder);
     if (!found)
         return false;
+    path->rest = strdup(path->name + length);
     path->folder_device = info.st_dev;
     path->folder_inode = info.st_ino;
-    return true;
+    if (path->rest)
+        tidy(path->rest);
+    return path->rest != NULL;
 }
 
 static bool
@@ -56,13 +84,13 @@ otx_path_list_add(otx_path_list *list, const char *name)
     if (!name || !*name)
         return;
     path.name = strdup(name);
-    if (!path.name || !grow(list))
+    if (!path.name || !find_folder(&path) || !grow(list))
     {
         free(path.name);
+        free(path.rest);
         list->out_of_memory = true;
         return;
     }
-    path.has_folder = find_folder(&path);
     path.exists = stat(name, &info) == 0;
     if (path.exists)
     {
@@ -76,22 +104,41 @@ void
 otx_path_list_free(otx_path_list *list)
 {
     for (int i = 0; i < list->count; ++i)
+    {
         free(list->items[i].name);
+        free(list->items[i].rest);
+    }
     free(list->items);
     *list = (otx_path_list){0};
+}
+
+static int
+order_numbers(uint64_t a, uint64_t b)
+{
+    return a < b ? -1 : a > b;
+}
+
+int
+otx_path_list_order(const otx_path *a, const otx_path *b)
+{
+    const bool exist = a->exists && b->exists;
+    int order = order_numbers(a->exists, b->exists);
+
+    if (order == 0)
+        order = order_numbers(
+            exist ? a->device : a->folder_device,
+            exist ? b->device : b->folder_device);
+    if (order == 0)
+        order = order_numbers(
+            exist ? a->inode : a->folder_inode,
+            exist ? b->inode : b->folder_inode);
+    return order != 0 || exist ? order : strcasecmp(a->rest, b->rest);
 }
 
 bool
 otx_path_list_is_same(const otx_path *a, const otx_path *b)
 {
-    if (a->exists && b->exists)
-        return a->device == b->device && a->inode == b->inode;
-    if (a->exists || b->exists)
-        return false;
-    return a->has_folder && b->has_folder &&
-           a->folder_device == b->folder_device &&
-           a->folder_inode == b->folder_inode &&
-           strcasecmp(base_of(a->name), base_of(b->name)) == 0;
+    return otx_path_list_order(a, b) == 0;
 }
 
 const otx_path *

@@ -12,8 +12,10 @@
 typedef struct otx_path
 {
     char *name;
-    bool exists, has_folder;
-    dev_t device, folder_device;
+    char *rest; /* of the name behind the nearest folder that is there, without
+                 * "./" and doubled slashes; a plain name where its folder is */
+    bool exists;
+    dev_t device, folder_device; /* of the file, of that folder */
     ino_t inode, folder_inode;
 } otx_path;
 
@@ -33,6 +35,9 @@ void otx_path_list_free(otx_path_list *list);
 /* Whether two names are of one file. Of files that are not there, names that
  * differ in case only count as one: on many systems they are. */
 bool otx_path_list_is_same(const otx_path *a, const otx_path *b);
+
+/* An order in which two names of one file are neighbours. */
+int otx_path_list_order(const otx_path *a, const otx_path *b);
 
 /* The first of the list that is the file of `path`; NULL none. */
 const otx_path *

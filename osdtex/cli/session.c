@@ -13,7 +13,8 @@
 enum
 {
     BAR_WIDTH = 40,
-    MAX_THREADS = 256
+    MAX_THREADS = 256,
+    LINE_BYTES = 16384 /* names of several files fit */
 };
 
 /* All that a signal handler touches; a process has one of each. */
@@ -88,44 +89,6 @@ wipe_bar(otx_session *session)
     session->bar_is_shown = false;
 }
 
-void
-otx_session_say(otx_session *session, const char *format, ...)
-{
-    va_list arguments;
-
-    if (session->quiet)
-        return;
-    wipe_bar(session);
-    fputs("osdtex: ", stderr);
-    va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
-    va_end(arguments);
-    fputc('\n', stderr);
-}
-
-void
-otx_session_lap(otx_session *session, const char *what)
-{
-    const double t = now();
-
-    if (session->verbose)
-        otx_session_say(session, "%s: %.3f s", what, t - session->lap);
-    session->lap = t;
-}
-
-int
-otx_session_refuse(const char *format, ...)
-{
-    va_list arguments;
-
-    fputs("osdtex: error: ", stderr);
-    va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
-    va_end(arguments);
-    fputc('\n', stderr);
-    return OTX_EXIT_USAGE;
-}
-
 /* `length` characters. Names in a file may hold what a terminal takes for
  * commands. */
 static void
@@ -152,6 +115,51 @@ put_sentence(const osdtex_diagnostic *d)
         put_plain(at, length);
         at += length + (at[length] != '\0');
     }
+}
+
+static void
+put_line(const char *opening, const char *format, va_list arguments)
+{
+    char line[LINE_BYTES];
+
+    vsnprintf(line, sizeof line, format, arguments);
+    fputs(opening, stderr);
+    put_plain(line, strlen(line));
+    fputc('\n', stderr);
+}
+
+void
+otx_session_say(otx_session *session, const char *format, ...)
+{
+    va_list arguments;
+
+    if (session->quiet)
+        return;
+    wipe_bar(session);
+    va_start(arguments, format);
+    put_line("osdtex: ", format, arguments);
+    va_end(arguments);
+}
+
+int
+otx_session_refuse(const char *format, ...)
+{
+    va_list arguments;
+
+    va_start(arguments, format);
+    put_line("osdtex: error: ", format, arguments);
+    va_end(arguments);
+    return OTX_EXIT_USAGE;
+}
+
+void
+otx_session_lap(otx_session *session, const char *what)
+{
+    const double t = now();
+
+    if (session->verbose)
+        otx_session_say(session, "%s: %.3f s", what, t - session->lap);
+    session->lap = t;
 }
 
 /* "shirt.obj:4711: ", "shirt.obj: " or "". */

@@ -5,9 +5,13 @@
  * to know. */
 #include "farm/engine.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+
+enum
+{
+    HEAD_BYTES = 2048 /* of a file, where its sign is */
+};
 
 /* In single quotes for a shell. `dollar` is how the language around it writes
  * one: make wants two. */
@@ -40,6 +44,8 @@ put_quoted_xml(FILE *out, const char *text)
             fputs("&lt;", out);
         else if (*text == '&')
             fputs("&amp;", out);
+        else if (*text == '>')
+            fputs("&gt;", out);
         else
             fputc(*text, out);
     }
@@ -69,7 +75,8 @@ put_slurm(FILE *out, const otx_job *job, const char *program)
 {
     fprintf(
         out,
-        "#!/bin/sh\n#SBATCH --job-name=%s\n#SBATCH --array=0-%d\n"
+        "#!/bin/sh\n# osdtex plan\n#SBATCH --job-name=%s\n#SBATCH "
+        "--array=0-%d\n"
         "#SBATCH --cpus-per-task=%d\n#SBATCH --requeue\n"
         "#SBATCH --open-mode=append\n#SBATCH --output=%s-%%a.log\nexec ",
         job->name, job->task_count - 1, job->threads > 0 ? job->threads : 1,
@@ -114,7 +121,8 @@ put_deadline_job(FILE *out, const otx_job *job, const char *program)
     (void)program;
     fprintf(
         out,
-        "Plugin=CommandLine\nName=%s\nFrames=0-%d\nChunkSize=1\n"
+        "Plugin=CommandLine\nComment=osdtex "
+        "plan\nName=%s\nFrames=0-%d\nChunkSize=1\n"
         "OverrideTaskFailureDetection=true\nFailureDetectionTaskErrors=3\n",
         job->name, job->task_count - 1);
 }
@@ -129,18 +137,66 @@ put_deadline_plugin(FILE *out, const otx_job *job, const char *program)
         program, job->path);
 }
 
+/* ---- names that cannot be told ---------------------------------------------
+ */
+
+/* Control characters end lines, and with them commands. */
+static const char *
+refuse_control(const char *name)
+{
+    for (; *name; ++name)
+        if ((unsigned char)*name < ' ' || *name == 127)
+            return "it holds a control character";
+    return NULL;
+}
+
+/* XML is UTF-8, and Cue replaces what stands between two #. */
+static const char *
+refuse_cue(const char *name)
+{
+    const char *hash = strchr(name, '#');
+    json_t *text = json_string(name);
+    const bool is_utf8 = text != NULL;
+
+    json_decref(text);
+    if (!is_utf8)
+        return "it is not UTF-8, as XML is";
+    return hash && strchr(hash + 1, '#') ? "OpenCue takes what stands between "
+                                           "two # for a word of its own"
+                                         : refuse_control(name);
+}
+
+/* Deadline knows no escapes; <...> are words of its own. */
+static const char *
+refuse_deadline(const char *name)
+{
+    return strpbrk(name, "\"<>")
+               ? "in Deadline's files \", < and > cannot be written as they are"
+               : refuse_control(name);
+}
+
 static const otx_engine engines[] = {
-    {"make", "make -k -j 4 -f %s/Makefile", 1, {{"Makefile", put_make}}},
-    {"slurm", "sbatch %s/job.sbatch", 1, {{"job.sbatch", put_slurm}}},
+    {"make",
+     "make -k -j 4 -f %s/Makefile",
+     1,
+     {{"Makefile", "make -k -j N -f Makefile\n", put_make}},
+     refuse_control},
+    {"slurm",
+     "sbatch %s/job.sbatch",
+     1,
+     {{"job.sbatch", "# osdtex plan\n", put_slurm}},
+     refuse_control},
     {"opencue",
      "launch %s/job.xml, with opencue.api.launchSpecAndWait",
      1,
-     {{"job.xml", put_opencue}}},
+     {{"job.xml", "<show>osdtex</show>", put_opencue}},
+     refuse_cue},
     {"deadline",
      "deadlinecommand %s/job_info.job %s/plugin_info.job",
      2,
-     {{"job_info.job", put_deadline_job},
-      {"plugin_info.job", put_deadline_plugin}}},
+     {{"job_info.job", "Comment=osdtex plan\n", put_deadline_job},
+      {"plugin_info.job", "Arguments=run <QUOTE>", put_deadline_plugin}},
+     refuse_deadline},
 };
 
 const otx_engine *
@@ -160,32 +216,63 @@ otx_engine_find(const char *name)
 }
 
 bool
-otx_engine_write(
+otx_engine_check(
     const otx_engine *engine, const otx_job *job, const char *program,
-    const char *folder, char error[OTX_JOB_ERROR_BYTES])
+    char error[OTX_JOB_ERROR_BYTES])
 {
-    char path[OTX_JOB_PATH_BYTES];
+    const char *const names[] = {job->path, program};
 
-    for (int i = 0; i < engine->file_count; ++i)
+    for (int i = 0; i < 2; ++i)
     {
-        FILE *out;
-        bool whole;
+        const char *why = engine->refuse(names[i]);
 
-        snprintf(
-            path, sizeof path, "%.3900s/%s", folder, engine->files[i].name);
-        out = fopen(path, "w");
-        whole = out != NULL;
-        if (out)
-        {
-            engine->files[i].put(out, job, program);
-            whole = !ferror(out);
-            whole = fclose(out) == 0 && whole;
-        }
-        if (whole)
+        if (!why)
             continue;
         snprintf(
-            error, OTX_JOB_ERROR_BYTES, "%.400s: %.80s", path, strerror(errno));
+            error, OTX_JOB_ERROR_BYTES,
+            "%s cannot be told of '%.300s', the %s: %s; give it another name",
+            engine->name, names[i], i == 0 ? "job" : "program", why);
         return false;
     }
     return true;
+}
+
+void
+otx_engine_path(
+    const otx_engine *engine, int index, const char *folder,
+    char path[OTX_JOB_PATH_BYTES])
+{
+    snprintf(
+        path, OTX_JOB_PATH_BYTES, "%.3900s/%s", folder,
+        engine->files[index].name);
+}
+
+bool
+otx_engine_may_replace(const otx_engine *engine, int index, const char *path)
+{
+    char head[HEAD_BYTES + 1];
+    FILE *file = fopen(path, "rb");
+    size_t size;
+
+    if (!file)
+        return true;
+    size = fread(head, 1, HEAD_BYTES, file);
+    fclose(file);
+    head[size] = '\0';
+    return size == 0 || strstr(head, engine->files[index].sign) != NULL;
+}
+
+bool
+otx_engine_write(
+    const otx_engine *engine, int index, const otx_job *job,
+    const char *program, const char *path)
+{
+    FILE *out = fopen(path, "w");
+    bool whole = out != NULL;
+
+    if (!out)
+        return false;
+    engine->files[index].put(out, job, program);
+    whole = !ferror(out);
+    return fclose(out) == 0 && whole;
 }

@@ -106,17 +106,33 @@ check_task(const otx_job *job, int task, char *error)
     return true;
 }
 
+/* Engines and log files know no blanks. */
+static bool
+take_name(otx_job *job)
+{
+    const char *name = json_string_value(json_object_get(job->root, "name"));
+
+    if (!name || strlen(name) >= sizeof job->plain_name)
+        return false;
+    strcpy(job->plain_name, name);
+    for (char *c = job->plain_name; *c; ++c)
+        if (*c == ' ')
+            *c = '_';
+    job->name = job->plain_name;
+    return is_plain(job->name);
+}
+
 static bool
 check(otx_job *job, char *error)
 {
     const json_t *tasks = json_object_get(job->root, "tasks");
     const json_t *threads = json_object_get(job->root, "threads");
 
-    job->name = json_string_value(json_object_get(job->root, "name"));
-    if (!is_plain(job->name))
+    if (!take_name(job))
         return refuse(
             error,
-            "the job needs a \"name\" of letters, digits, '.', '_' and '-'");
+            "the job needs a \"name\" of letters, digits, blanks, '.', '_' and "
+            "'-'");
     if (!json_is_array(tasks) || json_array_size(tasks) == 0 ||
         json_array_size(tasks) > OTX_JOB_TASKS_MAX)
         return refuse(

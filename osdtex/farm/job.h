@@ -22,17 +22,19 @@ enum
 {
     OTX_JOB_ERROR_BYTES = 512,
     OTX_JOB_PATH_BYTES = 4096,
+    OTX_JOB_NAME_BYTES = 101,
     OTX_JOB_TASKS_MAX = 100000
 };
 
 typedef struct otx_job
 {
     json_t *root;
-    const char *name;
-    int threads; /* of a task; 0 all */
+    const char *name; /* with `_` for blanks */
+    int threads;      /* of a task; 0 all */
     int task_count;
-    char path[OTX_JOB_PATH_BYTES];   /* of the file, absolute */
-    char folder[OTX_JOB_PATH_BYTES]; /* of it */
+    char plain_name[OTX_JOB_NAME_BYTES]; /* what `name` points to */
+    char path[OTX_JOB_PATH_BYTES];       /* of the file, absolute */
+    char folder[OTX_JOB_PATH_BYTES];     /* of it */
 } otx_job;
 
 /* False after saying in `error` what is wrong. */

@@ -8,7 +8,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
 
 from program import (  # noqa: E402
-    CAGES, ENVIRONMENT, EXEMPLARS, PROGRAM, ProgramTest, main)
+    CAGES, ENVIRONMENT, EXEMPLARS, PROGRAM, SHARED, ProgramTest, main)
 
 QUICK = "gravel.png --level 1 --scale 2 --resolution 64"
 

@@ -3,11 +3,13 @@
 once, and make as the smallest of farms."""
 
 import json
+import os
 import shlex
+import shutil
 import subprocess
 import xml.etree.ElementTree
 
-from jobs import ENVIRONMENT, PROGRAM, QUICK, JobTest, main
+from jobs import ENVIRONMENT, PROGRAM, QUICK, SHARED, JobTest, main
 
 TASKS = [("first", f"plane.obj {QUICK}"), ("second", f"plane.obj {QUICK} --seed 2")]
 
@@ -82,6 +84,161 @@ class Plan(JobTest):
                 "bake", *whole.split(), "--udim", "5000", cwd=farm.parent), 1,
             "no tile 5000")
 
+    def test_tasks_that_write_one_file(self):
+        """However the file is named, the refusal names both."""
+        q = f"plane.obj {QUICK}"
+        for one, two, what in (
+                (f"{q} -o out/a.obj", f"{q} --seed 2 -o out/a.obj", "a_cage"),
+                (f"{q} -o out/a.obj", f"{q} -o ./out/../out/a.obj", "a_cage"),
+                (f"{q} -o out/a.obj", f"{q} -o here/out/a.obj", "a_cage"),
+                (f"{q} -o out/a.obj", f"{q} -o out/A.obj", "_cage"),
+                (f"{q} -o new/a.obj", f"{q} -o new/./a.obj", "a_cage"),
+                (f"{q} -o out/a.obj --json-report out/r.json",
+                 f"{q} -o out/b.obj --json-report out/r.json", "r.json"),
+                (f"{q} -o out/a.obj", f"{q} -o out/a.obj --udim 1001", "a_c"),
+                (f"{q} -o out/a.obj",
+                 f"{q} -o out/b.obj --preview out/a.mtlx.png", None)):
+            with self.subTest(two):
+                job = self.write_job("job", [("first", one), ("second", two)])
+                (job.parent / "here").symlink_to(".")
+                result = self.run_program("plan", job, "-o", self.folder / "f")
+                if what is None:
+                    self.assert_exit(result, 0)
+                else:
+                    self.assert_error(
+                        result, 2, "tasks 0 ('first') and 1 ('second') would "
+                        "both write ")
+                    self.assertIn(what, result.stderr)
+                    self.assertFalse((self.folder / "f").exists())
+                shutil.rmtree(job.parent)
+
+    def test_shared_report(self):
+        job = SHARED / "reports" / "same_outputs_job.json"
+        if not job.exists():
+            self.skipTest("../shared/data/reports is not there")
+        self.assert_error(
+            self.run_program("plan", job, "-o", self.folder / "f"), 2,
+            "tasks 0 ('t1') and 1 ('t2') would both write 'out/j1.obj'")
+
+    def test_files_of_others_are_kept(self):
+        job = self.write_job("job", TASKS)
+        for engine, name in (("make", "Makefile"), ("slurm", "job.sbatch"),
+                             ("opencue", "job.xml"),
+                             ("deadline", "plugin_info.job")):
+            files = self.folder / engine
+            files.mkdir()
+            (files / name).write_text("all:\n\techo mine\n")
+            result = self.run_program(
+                "plan", job, "--engine", engine, "-o", files)
+            self.assert_error(result, 3, "was not written by osdtex plan")
+            self.assertEqual([p.name for p in files.iterdir()], [name])
+            self.assertIn("mine", (files / name).read_text())
+            # An empty one is nobody's, and our own is replaced.
+            (files / name).write_text("")
+            for _ in range(2):
+                self.plan(job, engine)
+            self.assertGreater((files / name).stat().st_size, 0)
+            (files / name).chmod(0o444)
+            self.assert_error(
+                self.run_program("plan", job, "--engine", engine, "-o", files),
+                3, "write-protected")
+        for path in (self.folder / "make").iterdir():
+            path.unlink()
+        (self.folder / "make" / "Makefile").symlink_to("elsewhere")
+        self.assert_error(
+            self.run_program("plan", job, "-o", self.folder / "make"), 3,
+            "link")
+
+    HOSTILE = ["a b", "$(touch pwned)", "it's", 'say "x"', "a%b%i", "a#b",
+               "#IFRAME#", "a&b<c>]]>", "back\\", "-x", "ü", "*?[a]", "!x",
+               "x" * 200]
+
+    def words_of(self, engine, files):
+        """The program and its arguments as the engine would run task 1."""
+        if engine == "make":
+            made = subprocess.run(
+                ["make", "-n", "-f", files / "Makefile", "task-1"],
+                capture_output=True, text=True, check=True, cwd=self.folder)
+            return shlex.split(made.stdout)
+        if engine == "slurm":
+            script = (files / "job.sbatch").read_text().replace(
+                "\nexec ", "\nprintf '%s\\n' ")
+            return subprocess.run(
+                ["sh"], input=script, env={"SLURM_ARRAY_TASK_ID": "1"},
+                capture_output=True, text=True, check=True,
+                cwd=self.folder).stdout.splitlines()
+        if engine == "opencue":
+            spec = xml.etree.ElementTree.parse(files / "job.xml")
+            return shlex.split(
+                spec.find(".//cmd").text.replace("#IFRAME#", "1"))
+        info = dict(line.split("=", 1) for line in
+                    (files / "plugin_info.job").read_text().splitlines())
+        arguments = info["Arguments"].replace("<STARTFRAME>", "1")
+        self.assertEqual(arguments.count("<QUOTE>"), 2)
+        before, path, after = arguments.split("<QUOTE>")
+        return [info["Executable"], *before.split(), path, *after.split()]
+
+    def test_hostile_names(self):
+        """Words come out as they went in, or one sentence says why not."""
+        self.need("make")
+        planned = set()
+        for name in self.HOSTILE:
+            job = self.write_job(name, TASKS)
+            for engine in "make", "slurm", "opencue", "deadline":
+                files = self.folder / "files"
+                program = f"/opt/{name}/osdtex"
+                result = self.run_program(
+                    "plan", job, "--engine", engine, "-o", files, "--program",
+                    program)
+                with self.subTest(name=name, engine=engine):
+                    if result.returncode == 0:
+                        planned.add((name, engine))
+                        self.assertEqual(
+                            self.words_of(engine, files),
+                            [program, "run", str(job), "--task", "1"])
+                        shutil.rmtree(files)
+                    else:
+                        self.assert_error(result, 2, f"{engine} cannot be told")
+                        self.assertFalse(files.exists())
+        self.assertFalse((self.folder / "pwned").exists())
+        for name in self.HOSTILE:
+            self.assertIn((name, "make"), planned)
+            self.assertIn((name, "slurm"), planned)
+        self.assertIn(("a&b<c>]]>", "opencue"), planned)
+
+    def test_names_that_end_lines(self):
+        for name in ("i\ntask-0:;touch pwned #", "a\rb", "a\tb", "a\x7fb"):
+            job = self.write_job(name, TASKS)
+            fine = self.write_job("fine", TASKS)
+            for engine in "make", "slurm", "opencue", "deadline":
+                for words in ([job], [fine, "--program", name]):
+                    self.assert_error(
+                        self.run_program(
+                            "plan", *words, "--engine", engine, "-o",
+                            self.folder / "files"), 2, "control character")
+            shutil.rmtree(fine.parent)
+        self.assertFalse((self.folder / "files").exists())
+
+    def test_names_that_are_not_utf8(self):
+        job = self.write_job("fine", TASKS)
+        odd = os.fsdecode(b"/opt/\xff/osdtex")
+        self.assert_error(
+            self.run_program(
+                "plan", job, "--engine", "opencue", "-o", self.folder / "x",
+                "--program", odd), 2, "not UTF-8")
+        self.assert_exit(
+            self.run_program(
+                "plan", job, "-o", self.folder / "x", "--program", odd), 0)
+
+    def test_printed_commands_are_quoted(self):
+        job = self.write_job("job", TASKS)
+        folder = self.folder / "a b'c"
+        result = self.run_program("plan", job, "-o", folder)
+        self.assert_exit(result, 0)
+        self.assertEqual(
+            shlex.split(result.stdout.split(": ", 1)[1])[-1],
+            f"{folder}/Makefile")
+
     def test_mistakes(self):
         job = self.write_job("job", TASKS)
         self.assert_error(
@@ -97,7 +254,7 @@ class Plan(JobTest):
             "the file cannot be read")
         task = {"name": "a", "command": "map", "arguments": "a b"}
         for wrong, words in (
-                ({"tasks": []}, "no \"tasks\""), ({"name": "a b"}, "\"name\""),
+                ({"tasks": []}, "no \"tasks\""), ({"name": "a/b"}, "\"name\""),
                 ({"tasks": [dict(task, command="render")]}, "\"command\""),
                 ({"tasks": [dict(task, arguments=[1])]}, "\"arguments\""),
                 ({"tasks": [dict(task, name="a/b")]}, "\"name\""),

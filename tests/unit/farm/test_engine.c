@@ -76,7 +76,7 @@ slurm_gets_one_word(void **state)
     }
 }
 
-/* &lt; and &amp; are the only entities that are written. */
+/* &lt;, &gt; and &amp; are the only entities that are written. */
 static void
 unescape(char *text)
 {
@@ -85,10 +85,11 @@ unescape(char *text)
     for (; *text; ++to)
     {
         const bool less = strncmp(text, "&lt;", 4) == 0;
+        const bool more = strncmp(text, "&gt;", 4) == 0;
         const bool and = strncmp(text, "&amp;", 5) == 0;
 
-        *to = less ? '<' : *text;
-        text += less ? 4 : and? 5 : 1;
+        *to = less ? '<' : more ? '>' : *text;
+        text += less || more ? 4 : and? 5 : 1;
     }
     *to = '\0';
 }
