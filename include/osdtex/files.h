@@ -34,6 +34,43 @@ osdtex_colour_hash(osdtex_context *context, char hash[OSDTEX_HASH_BYTES]);
  * was there before stays. ARGUMENT (a set has been begun), MEMORY. */
 OSDTEX_API osdtex_status osdtex_outputs_begin(osdtex_context *context);
 
+/* Says which job the files of the set are of: each carries it, with a seal by
+ * which it is known to be whole, in a comment or an attribute.
+ *
+ *   job     a hash as osdtex_hash gives it; NULL none
+ *   source  the file that they are made from; its name counts, not its folder.
+ *           NULL none
+ *
+ * ARGUMENT. */
+OSDTEX_API osdtex_status osdtex_outputs_mark(
+    osdtex_context *context, const char *job, const char *source);
+
+enum
+{
+    OSDTEX_SOURCE_BYTES = 81
+};
+
+/* The name of a source as marks have it: without its folder, in plain letters.
+ */
+OSDTEX_API void
+osdtex_outputs_source(const char *path, char source[OSDTEX_SOURCE_BYTES]);
+
+/* What a file says of itself. */
+typedef struct osdtex_output_mark
+{
+    char job[OSDTEX_HASH_BYTES];      /* "" none */
+    char source[OSDTEX_SOURCE_BYTES]; /* the name, as plain letters; "" not
+                                         known */
+    bool is_ours;                     /* it was written by osdtex */
+    bool is_whole;                    /* and nothing of it has changed since */
+} osdtex_output_mark;
+
+/* Reads the mark of a file; one of zeros when there is none.
+ *
+ *   check_seal  reads all of the file, for is_whole */
+OSDTEX_API void osdtex_outputs_inspect(
+    const char *path, bool check_seal, osdtex_output_mark *out);
+
 /* Makes a file of the caller's own part of the set: an empty one, which has
  * been closed by the time of the commit.
  *

@@ -56,6 +56,7 @@ otx_call_begin(osdtex_context *context, const char *stage, otx_call *call)
                 .progress = context->options.progress ? relay : NULL,
                 .progress_user = context,
                 .outputs = context->outputs,
+                .mark = context->outputs ? &context->mark : NULL,
             },
         .scratch = otx_arena_here(context->scratch),
         .begun = now(),

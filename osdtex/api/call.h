@@ -8,6 +8,7 @@
 
 #include "base/run.h"
 #include "colour/colour.h"
+#include "file/mark.h"
 
 #include <osdtex/osdtex.h>
 
@@ -38,6 +39,7 @@ struct osdtex_context
     /* How far the call at hand has said it is. */
     const char *stage;
     double fraction;
+    otx_mark mark; /* of what is written into the set */
     int32_t time_count;
     otx_call_time times[OTX_CALL_TIMES_MAX];
 };

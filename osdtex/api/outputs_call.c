@@ -2,6 +2,8 @@
 #include "api/call.h"
 #include "file/atomic_file.h"
 
+#include <string.h>
+
 static const char STAGE[] = "write";
 
 void
@@ -36,8 +38,10 @@ osdtex_outputs_begin(osdtex_context *context)
     status = begin(&call);
     arena = call.run.arena;
     status = otx_call_end(&call, status, &arena);
-    if (status == OSDTEX_OK)
-        context->outputs_arena = arena;
+    if (status != OSDTEX_OK)
+        return status;
+    context->outputs_arena = arena;
+    context->mark = (otx_mark){0};
     return status;
 }
 
@@ -49,6 +53,47 @@ need_outputs(otx_call *call)
     return otx_fail(
         &call->run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
         "no set of outputs has been begun");
+}
+
+osdtex_status
+osdtex_outputs_mark(
+    osdtex_context *context, const char *job, const char *source)
+{
+    otx_mark mark = {0};
+
+    if (!context || (job && strlen(job) != sizeof mark.job - 1) ||
+        (job && strspn(job, "0123456789abcdef") != sizeof mark.job - 1))
+        return OSDTEX_ERROR_ARGUMENT;
+    if (job)
+        strcpy(mark.job, job);
+    if (source)
+        otx_mark_set_source(&mark, source);
+    context->mark = mark;
+    return OSDTEX_OK;
+}
+
+void
+osdtex_outputs_source(const char *path, char source[OSDTEX_SOURCE_BYTES])
+{
+    otx_mark mark = {0};
+
+    otx_mark_set_source(&mark, path);
+    strcpy(source, mark.source);
+}
+
+void
+osdtex_outputs_inspect(
+    const char *path, bool check_seal, osdtex_output_mark *out)
+{
+    otx_mark_found found;
+
+    *out = (osdtex_output_mark){0};
+    if (!path || !otx_mark_read(path, check_seal, &found))
+        return;
+    strcpy(out->job, found.mark.job);
+    strcpy(out->source, found.mark.source);
+    out->is_whole = found.is_whole;
+    out->is_ours = true;
 }
 
 static otx_status

@@ -433,6 +433,7 @@ write_report(otx_call *call, const osdtex_mapping *mapping, const char *path)
     otx_measure_options how = otx_measure_options_default();
     const osdtex_context *context = call->context;
     otx_run *run = &call->run;
+    char mark[OTX_MARK_BYTES];
     otx_measure measure;
     json_t *root;
 
@@ -452,6 +453,9 @@ write_report(otx_call *call, const osdtex_mapping *mapping, const char *path)
     }
     set_text(root, "version", osdtex_version());
     set_text(root, "build", osdtex_build());
+    otx_mark_print(run->mark, mark);
+    if (mark[0])
+        set_text(root, "mark", mark);
     put_inputs(root, mapping);
     put_options(root, context, mapping);
     put_colour(root, context, mapping);

@@ -47,6 +47,7 @@ typedef struct otx_run
     uint64_t seed;
     struct otx_atomic_file_set *outputs; /* what is written goes there; NULL:
                                           * each call has a set of its own */
+    const struct otx_mark *mark; /* what files say of themselves; NULL none */
 } otx_run;
 
 /* NULL when memory is out. */

@@ -35,13 +35,12 @@ beside(const char *cage, const char *suffix)
     return path;
 }
 
-/* Whether a file is there and, where a hash is given, carries it. */
+/* Whether a file is there and whole and, where a hash is given, carries it. */
 static bool
 is_there(const char *cage, const char *suffix, const char *hash)
 {
     char *path = beside(cage, suffix);
-    const bool found = path && (hash ? otx_up_to_date_check(path, hash)
-                                     : access(path, F_OK) == 0);
+    const bool found = path && otx_up_to_date_check(path, hash);
 
     free(path);
     return found;
@@ -59,17 +58,14 @@ tile_is_done(
     {
         if (kind > 0 && !(options->extras & 1u << (kind - 1)))
             continue;
-        const bool is_png = kind == 0 && strcmp(extension, ".png") == 0;
-
         snprintf(
             suffix, sizeof suffix, "%s.%ld%s", KINDS[kind], tile,
             kind == 0 ? extension : ".exr");
-        /* A PNG does not carry the hash. */
-        if (!is_there(cage, suffix, is_png ? NULL : hash))
+        if (!is_there(cage, suffix, hash))
             return false;
     }
     snprintf(suffix, sizeof suffix, ".%ld.png", tile);
-    return !options->preview_png || is_there(cage, suffix, NULL);
+    return !options->preview_png || is_there(cage, suffix, hash);
 }
 
 /* The tiles that a line lists, all of them done and at least one. */
@@ -123,11 +119,12 @@ otx_bake_outputs_are_done(
     const char *cage, const osdtex_bake_options *options, const char *extension,
     const char hash[OSDTEX_HASH_BYTES])
 {
-    return is_there(cage, "_cage.obj", options->udim ? NULL : hash) &&
-           is_there(cage, "_cage.mtl", NULL) &&
-           is_there(cage, ".usda", options->udim ? NULL : hash) &&
-           is_there(cage, ".mtlx", NULL) &&
-           (!options->preview_png || is_there(cage, "_preview.mtl", NULL)) &&
+    const char *of_all = options->udim ? NULL : hash;
+
+    return is_there(cage, "_cage.obj", of_all) &&
+           is_there(cage, "_cage.mtl", of_all) &&
+           is_there(cage, ".usda", of_all) && is_there(cage, ".mtlx", of_all) &&
+           (!options->preview_png || is_there(cage, "_preview.mtl", of_all)) &&
            (options->udim
                 ? tile_is_done(cage, options, options->udim, extension, hash)
                 : named_tiles_are_done(cage, options, extension, hash));

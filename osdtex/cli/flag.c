@@ -241,8 +241,11 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "read and check the inputs, say what would be done, write nothing"},
     [OTX_FLAG_UPDATE] =
         {"update", 'u', OTX_FLAG_GROUP_COMMON, NULL,
-         "do nothing when the outputs were made by this version from the same "
-         "inputs and options"},
+         "do nothing when the outputs were made by this build from the same "
+         "inputs and options, and are whole"},
+    [OTX_FLAG_REPLACE] =
+        {"replace", 0, OTX_FLAG_GROUP_COMMON, NULL,
+         "also replace files of another job, or of another program"},
     [OTX_FLAG_UPDATE_CASE] =
         {"update", 0, OTX_FLAG_GROUP_MAIN, "CASE|all",
          "run this case, or all, and make what comes out the reference"},

@@ -16,31 +16,49 @@ add(void *list, const char *path)
     otx_path_list_add(list, path);
 }
 
-/* A file, and what it names. It counts where it is not there, too: it may be
- * a pipe. */
+/* A file, and what it names. */
 static osdtex_status
-add_file(osdtex_context *context, otx_path_list *list, const char *path)
+add_file(
+    osdtex_context *context, bool deep, otx_path_list *list, const char *path)
 {
+    const int count = list->count;
+    osdtex_status status = OSDTEX_OK;
+
     if (!path || !*path)
         return OSDTEX_OK;
-    otx_path_list_add(list, path);
-    return osdtex_file_references(context, path, add, list);
+    if (deep || strchr(path, '<'))
+        status = osdtex_file_references(context, path, add, list);
+    /* It may be a pipe. */
+    if (status == OSDTEX_OK && list->count == count)
+        otx_path_list_add(list, path);
+    return status;
 }
 
 osdtex_status
-otx_guard_inputs(
-    osdtex_context *context, const otx_flag_values *values, otx_path_list *out)
+otx_guard_named(
+    osdtex_context *context, const otx_flag_values *values, bool deep,
+    otx_path_list *out)
 {
     static const otx_flag_id files[] = {
         OTX_FLAG_MASK, OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOR};
     osdtex_status status = OSDTEX_OK;
 
     for (int i = 0; i < values->operand_count && status == OSDTEX_OK; ++i)
-        status = add_file(context, out, values->operands[i]);
+        status = add_file(context, deep, out, values->operands[i]);
     for (int i = 0; i < 3 && status == OSDTEX_OK; ++i)
-        status = add_file(context, out, values->text[files[i]]);
+        status = add_file(context, deep, out, values->text[files[i]]);
     for (int i = 0; i < values->also_count && status == OSDTEX_OK; ++i)
-        status = add_file(context, out, otx_also_flags_file(values->also[i]));
+        status =
+            add_file(context, deep, out, otx_also_flags_file(values->also[i]));
+    return status;
+}
+
+osdtex_status
+otx_guard_inputs(
+    osdtex_context *context, const otx_flag_values *values, otx_path_list *out)
+{
+    osdtex_status status = otx_guard_named(context, values, true, out);
+
     otx_path_list_add(out, values->job);
     if (status == OSDTEX_OK && otx_flag_is_taken(values, OTX_FLAG_COLORCONFIG))
         status = osdtex_colour_references(context, add, out);
@@ -135,6 +153,85 @@ check_places(const otx_path_list *outputs)
     return OSDTEX_OK;
 }
 
+/* ---- whose files they are ------------------------------------------------
+ */
+
+/* What is known of the files that are there. */
+typedef struct ownership
+{
+    const char *foreign;              /* made from something else; NULL none */
+    char source[OSDTEX_SOURCE_BYTES]; /* from what */
+    const char *unknown;              /* not made by osdtex; NULL none */
+    bool is_ours;                     /* one of them was made from the same */
+} ownership;
+
+static bool
+is_empty(const char *path)
+{
+    struct stat info;
+
+    return stat(path, &info) != 0 || info.st_size == 0;
+}
+
+/* A file that a flag names in full is asked for by that name: only the model or
+ * texture of another job is kept from it. */
+static void
+look_at(const char *path, bool is_named, const char *source, ownership *out)
+{
+    osdtex_output_mark mark;
+
+    osdtex_outputs_inspect(path, false, &mark);
+    if (!mark.is_ours)
+    {
+        if (!is_named && !is_empty(path))
+            out->unknown = path;
+    }
+    else if (mark.source[0] && strcmp(mark.source, source) != 0)
+    {
+        if (is_named && !mark.job[0])
+            return;
+        out->foreign = path;
+        strcpy(out->source, mark.source);
+    }
+    else
+        out->is_ours = true;
+}
+
+static osdtex_status
+check_owners(const otx_flag_values *values, const otx_path_list *outputs)
+{
+    const char *const named[] = {
+        values->text[OTX_FLAG_PREVIEW], values->text[OTX_FLAG_JSON_REPORT]};
+    char source[OSDTEX_SOURCE_BYTES];
+    ownership o = {0};
+
+    if (values->text[OTX_FLAG_REPLACE] || values->operand_count == 0)
+        return OSDTEX_OK;
+    osdtex_outputs_source(values->operands[0], source);
+    for (int i = 0; i < outputs->count; ++i)
+    {
+        const char *path = outputs->items[i].name;
+        bool is_named = outputs->count == 1;
+
+        for (int k = 0; k < 2; ++k)
+            is_named |= named[k] && strcmp(named[k], path) == 0;
+        look_at(path, is_named, source, &o);
+    }
+    if (o.foreign)
+        otx_session_refuse(
+            "'%s' belongs to another job: it was made from %s; choose another "
+            "name for the output, or give --replace",
+            o.foreign, o.source);
+    else if (o.unknown && !o.is_ours)
+        otx_session_refuse(
+            "'%s' is there and was not made by osdtex; choose another name for "
+            "the output, or give --replace",
+            o.unknown);
+    else
+        return OSDTEX_OK;
+    return OSDTEX_ERROR_ARGUMENT;
+}
+
 osdtex_status
 otx_guard_check(
     otx_session *session, const otx_flag_values *values,
@@ -149,6 +246,8 @@ otx_guard_check(
         status = check_pairs(&inputs, outputs);
     if (status == OSDTEX_OK)
         status = check_places(outputs);
+    if (status == OSDTEX_OK)
+        status = check_owners(values, outputs);
     otx_path_list_free(&inputs);
     return status;
 }
@@ -164,5 +263,7 @@ otx_guard_check_flags(otx_session *session, const otx_flag_values *values)
     otx_path_list_add(&outputs, values->text[OTX_FLAG_JSON_REPORT]);
     status = otx_guard_check(session, values, &outputs);
     otx_path_list_free(&outputs);
-    return status;
+    if (status != OSDTEX_OK)
+        return status;
+    return osdtex_outputs_mark(session->context, NULL, values->operands[0]);
 }

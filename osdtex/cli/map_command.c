@@ -84,39 +84,32 @@ render_preview(otx_session *session, job *j)
 }
 
 static osdtex_status
-write_models(
-    otx_session *session, const job *j, const char *const *comments, int count)
+write_models(otx_session *session, const job *j, const char *const *comments)
 {
     const otx_map_request *r = &j->request;
     osdtex_write_options options = osdtex_write_options_default();
     osdtex_bake_options bake = r->bake_options;
 
     options.comments = bake.comments = comments;
-    options.comment_count = bake.comment_count = count;
+    options.comment_count = bake.comment_count = 1;
     if (!r->bakes)
         return osdtex_mapping_write(
             session->context, j->mapping, r->obj, &options);
-    bake.texture_comment = count > 1 ? comments[1] : NULL;
     bake.mesh = r->maps ? &options : NULL;
-    /* One tile does not make the whole: the cage must not say that it is done.
-     */
-    if (bake.udim)
-        bake.comment_count = 1;
     return osdtex_bake(session->context, j->mapping, r->obj, &bake);
 }
 
 static osdtex_status
 write_outputs(otx_session *session, const job *j)
 {
-    char made[64], hash[128];
-    const char *const comments[] = {made, hash};
+    char made[64];
+    const char *const comments[] = {made};
     osdtex_status status;
 
     snprintf(
         made, sizeof made, "osdtex %s, in the units of the cage",
         osdtex_version());
-    snprintf(hash, sizeof hash, OTX_UP_TO_DATE_COMMENT "%s", j->hash);
-    status = write_models(session, j, comments, j->has_hash ? 2 : 1);
+    status = write_models(session, j, comments);
     if (status == OSDTEX_OK && j->picture)
         status = osdtex_image_write(
             session->context, j->picture, j->request.preview);
@@ -259,6 +252,16 @@ check_outputs(otx_session *session, const job *j)
     return status;
 }
 
+static osdtex_status
+mark_outputs(otx_session *session, job *j)
+{
+    const otx_flag_values *values = j->request.values;
+
+    j->has_hash = otx_up_to_date_job(session->context, values, j->hash);
+    return osdtex_outputs_mark(
+        session->context, j->has_hash ? j->hash : NULL, values->operands[0]);
+}
+
 static int
 run(const otx_flag_values *values, bool bake_only)
 {
@@ -268,10 +271,11 @@ run(const otx_flag_values *values, bool bake_only)
 
     if (!otx_map_request_parse(values, bake_only, &j.request))
         return OTX_EXIT_USAGE;
-    j.has_hash = otx_up_to_date_job(values, j.hash);
     if (!otx_session_begin(&session, values))
         return session.exit_code;
     status = check_outputs(&session, &j);
+    if (status == OSDTEX_OK)
+        status = mark_outputs(&session, &j);
     if (status != OSDTEX_OK)
         return otx_session_end(&session, status);
     if (values->text[OTX_FLAG_UPDATE] && j.has_hash &&

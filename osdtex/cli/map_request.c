@@ -276,24 +276,21 @@ otx_map_request_outputs(const otx_map_request *r, otx_path_list *out)
     otx_path_list_add(out, r->report);
 }
 
-static bool
-has_textures(const otx_map_request *r)
-{
-    for (int k = 0; k <= r->also.count; ++k)
-        if (access(r->exrs[k], F_OK) != 0)
-            return false;
-    return true;
-}
-
 bool
 otx_map_request_is_done(
     const otx_map_request *r, const char hash[OSDTEX_HASH_BYTES])
 {
-    return (!r->maps || (otx_up_to_date_check(r->obj, hash) &&
-                         access(r->mtl, F_OK) == 0 && has_textures(r))) &&
-           (!r->bakes ||
-            otx_bake_outputs_are_done(
-                r->cage_obj, &r->bake_options, texture_extension(r), hash)) &&
-           (!r->preview || access(r->preview, F_OK) == 0) &&
-           (!r->report || access(r->report, F_OK) == 0);
+    const char *const files[] = {
+        r->maps ? r->obj : NULL, r->maps ? r->mtl : NULL, r->preview,
+        r->report};
+
+    for (int i = 0; i < 4; ++i)
+        if (files[i] && !otx_up_to_date_check(files[i], hash))
+            return false;
+    for (int k = 0; r->maps && k <= r->also.count; ++k)
+        if (!otx_up_to_date_check(r->exrs[k], hash))
+            return false;
+    return !r->bakes ||
+           otx_bake_outputs_are_done(
+               r->cage_obj, &r->bake_options, texture_extension(r), hash);
 }

@@ -37,7 +37,7 @@ bool otx_map_request_parse(
 void
 otx_map_request_outputs(const otx_map_request *request, otx_path_list *out);
 
-/* Whether all outputs are there, of the job with this hash. */
+/* Whether all outputs are there and whole, of the job with this hash. */
 bool otx_map_request_is_done(
     const otx_map_request *request, const char hash[OSDTEX_HASH_BYTES]);
 

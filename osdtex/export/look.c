@@ -5,6 +5,7 @@
 #include "export/names.h"
 #include "export/texture_file.h"
 #include "file/exr.h"
+#include "file/mark.h"
 #include "file/mtl.h"
 #include "file/mtlx.h"
 #include "file/obj_write.h"
@@ -482,6 +483,28 @@ say_tiles(const writer *w)
             w->layout->tile_count);
 }
 
+/* One tile does not make the whole: then the texts, which are those of all
+ * tiles, must not say that they are of this job. */
+static otx_status
+write_texts(const writer *w)
+{
+    otx_run run = *w->run;
+    otx_mark mark = {0};
+    writer texts = *w;
+
+    if (run.mark && w->options->udim != 0)
+    {
+        mark = *run.mark;
+        mark.job[0] = '\0';
+        run.mark = &mark;
+        texts.run = &run;
+    }
+    OTX_TRY(write_mtlx(&texts));
+    OTX_TRY(write_usda(&texts));
+    /* Last into place, so that whoever waits for it finds the others. */
+    return write_cage(&texts);
+}
+
 static otx_status
 write_files(const writer *w)
 {
@@ -492,10 +515,7 @@ write_files(const writer *w)
         if (w->options->extras[kind])
             OTX_TRY(write_kind(w, (otx_texel_kind)kind));
     OTX_TRY(write_mesh(w));
-    OTX_TRY(write_mtlx(w));
-    OTX_TRY(write_usda(w));
-    /* Last into place, so that whoever waits for it finds the others. */
-    OTX_TRY(write_cage(w));
+    OTX_TRY(write_texts(w));
     return otx_atomic_file_commit(w->run, w->set, true);
 }
 

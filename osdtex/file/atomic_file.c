@@ -8,6 +8,7 @@
  * of them cannot. */
 #include "file/atomic_file.h"
 
+#include "file/mark.h"
 #include "file/temporary.h"
 
 #include <errno.h>
@@ -229,6 +230,14 @@ rename_all(otx_run *run, otx_atomic_file_set *set)
 otx_status
 otx_atomic_file_publish(otx_run *run, otx_atomic_file_set *set)
 {
+    for (const entry *e = set->first; e; e = e->next)
+    {
+        const int error = e->finished ? otx_mark_seal(e->temporary) : 0;
+
+        if (error != 0)
+            return fail_errno(
+                run, e->path, "the file cannot be written", error);
+    }
     for (const entry *e = set->first; e && set->durable; e = e->next)
         if (e->finished)
             OTX_TRY(sync_entry(run, e));

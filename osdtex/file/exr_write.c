@@ -7,6 +7,7 @@
 #include "file/exr.h"
 
 #include "base/build.h"
+#include "file/mark.h"
 #include "image/pyramid.h"
 
 #include <errno.h>
@@ -188,6 +189,20 @@ write_attribute(otx_exr_writer *w, const otx_exr_attribute *a)
     }
 }
 
+/* In the attribute that readers show, unless the caller has taken it. */
+static otx_status
+write_mark(otx_exr_writer *w, const otx_exr_options *options)
+{
+    const char *name = "comments";
+    char text[OTX_MARK_BYTES];
+
+    otx_mark_print(w->run->mark, text);
+    for (int32_t i = 0; i < options->attribute_count; ++i)
+        if (strcmp(options->attributes[i].name, name) == 0)
+            name = "osdtex:mark";
+    return text[0] ? check(w, write_text(w, name, text)) : OSDTEX_OK;
+}
+
 static otx_status
 write_attributes(otx_exr_writer *w, const otx_exr_options *options)
 {
@@ -209,7 +224,7 @@ write_attributes(otx_exr_writer *w, const otx_exr_options *options)
                 "attribute \"%s\" cannot be set in the EXR; is its name there "
                 "twice, empty or too long?",
                 options->attributes[i].name);
-    return OSDTEX_OK;
+    return write_mark(w, options);
 }
 
 static bool

@@ -277,6 +277,8 @@ otx_mtl_write(
     otx_text_out *out;
     otx_status status = otx_text_out_open(run, STAGE, path, title, &out);
 
+    if (status == OSDTEX_OK)
+        otx_text_out_mark(out, run->mark, "# ", "\n");
     for (int32_t i = 0; status == OSDTEX_OK && i < mtl->count; ++i)
         write_material(out, &mtl->materials[i]);
     if (status == OSDTEX_OK)

@@ -114,6 +114,7 @@ otx_mtlx_write(
     {
         otx_text_out_string(
             out, "<?xml version=\"1.0\"?>\n<materialx version=\"1.38\">\n");
+        otx_text_out_mark(out, run->mark, "<!-- ", " -->\n");
         write_image(out, mtlx, name);
         write_material(out, name);
         otx_text_out_string(out, "</materialx>\n");

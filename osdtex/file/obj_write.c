@@ -206,6 +206,7 @@ write_obj(
     otx_text_out *out)
 {
     write_comments(out, options);
+    otx_text_out_mark(out, run->mark, "# ", "\n");
     for (int32_t i = 0; i < obj->libraries.count; ++i)
     {
         otx_text_out_string(out, "mtllib ");

@@ -9,6 +9,7 @@
 #include "file/exif.h"
 
 #include "file/atomic_file.h"
+#include "file/mark.h"
 
 #include <errno.h>
 #include <png.h>
@@ -274,6 +275,7 @@ typedef struct writer
     png_infop info;
     uint8_t *row; /* one row, in run->scratch */
     char error[MESSAGE_BYTES];
+    char mark[OTX_MARK_BYTES];
 } writer;
 
 static void
@@ -321,6 +323,19 @@ quantise_row(const writer *w, int32_t y_down)
     }
 }
 
+/* The seal ends the text, and the checksum of the chunk follows it. */
+static void
+write_mark(writer *w)
+{
+    static char key[] = "Comment";
+    png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE, .key = key};
+
+    otx_mark_print(w->run->mark, w->mark);
+    text.text = w->mark;
+    if (w->mark[0])
+        png_set_text(w->png, w->info, &text, 1);
+}
+
 /* Zero when libpng jumped out; the row counter is not looked at after that. */
 static int
 writer_run(writer *w)
@@ -335,6 +350,7 @@ writer_run(writer *w)
         PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
         PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(w->png, w->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    write_mark(w);
     png_write_info(w->png, w->info);
     for (int32_t y = 0; y < w->image->height; ++y)
     {

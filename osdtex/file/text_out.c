@@ -204,6 +204,21 @@ otx_text_out_name(otx_text_out *out, const char *name, bool blanks)
     }
 }
 
+void
+otx_text_out_mark(
+    otx_text_out *out, const otx_mark *mark, const char *before,
+    const char *after)
+{
+    char text[OTX_MARK_BYTES];
+
+    otx_mark_print(mark, text);
+    if (!text[0])
+        return;
+    otx_text_out_string(out, before);
+    otx_text_out_string(out, text);
+    otx_text_out_string(out, after);
+}
+
 otx_status
 otx_text_out_close(otx_run *run, otx_text_out *out)
 {

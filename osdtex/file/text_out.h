@@ -6,6 +6,7 @@
 #define OTX_FILE_TEXT_OUT_H
 
 #include "base/run.h"
+#include "file/mark.h"
 
 typedef struct otx_text_out otx_text_out;
 
@@ -32,6 +33,11 @@ void otx_text_out_placed(otx_text_out *out, float value, double origin);
 /* A name as it can stand in a line: control characters become `_`, and so do
  * blanks unless they may stay. */
 void otx_text_out_name(otx_text_out *out, const char *name, bool blanks);
+
+/* A line for the mark, between what makes it a comment; nothing for NULL. */
+void otx_text_out_mark(
+    otx_text_out *out, const otx_mark *mark, const char *before,
+    const char *after);
 
 /* Flushes and closes. IO for the first write that failed, in words for a full
  * disk. */

@@ -395,6 +395,7 @@ write_all(otx_run *run, otx_text_out *out, const otx_usda *u)
         otx_text_out_name(out, u->comments[i], true);
         otx_text_out_char(out, '\n');
     }
+    otx_text_out_mark(out, run->mark, "# ", "\n");
     write_template(
         out,
         "(\n    defaultPrim = \"$\"\n    upAxis = \"Y\"\n)\n\n"

@@ -17,7 +17,7 @@ otx_compare_hash_text(const char *path, char text[OSDTEX_HASH_BYTES])
     bool whole = out != NULL;
 
     while (whole && (length = getline(&line, &room, in)) > 0)
-        if (line[0] != '#')
+        if (line[0] != '#' && strncmp(line, "<!--", 4) != 0)
             fwrite(line, 1, (size_t)length, out);
     if (in)
         whole = whole && !ferror(in);

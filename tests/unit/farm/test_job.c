@@ -117,7 +117,7 @@ static void
 names_that_engines_would_take_amiss_are_refused(void **state)
 {
     static const char *const names[] = {
-        "", "-x", "a b", "a/b", "a;b", "$x", "a\\\"b", "\\u00e4", "a\\nb"};
+        "", "-x", "a/b", "a;b", "$x", "a\\\"b", "\\u00e4", "a\\nb"};
 
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
