@@ -4,6 +4,7 @@
 #include "cli/task.h"
 #include "cli/value.h"
 #include "farm/engine.h"
+#include "regress/process.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -130,7 +131,7 @@ say_how(const otx_engine *engine, const otx_job *job, const char *folder)
             putchar(*c);
             continue;
         }
-        otx_value_put_word(stdout, folder, folder_length(folder));
+        otx_process_put_word(stdout, folder, (size_t)folder_length(folder));
         ++c;
     }
     putchar('\n');

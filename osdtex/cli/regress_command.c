@@ -74,6 +74,7 @@ otx_regress_command_run(const otx_flag_values *values)
     struct stat status;
     otx_session session;
     int code, stopped;
+    bool is_new;
 
     if (!output)
         return otx_session_refuse(
@@ -86,7 +87,7 @@ otx_regress_command_run(const otx_flag_values *values)
             strerror(errno));
         return OTX_EXIT_IO;
     }
-    mkdir(output, 0777);
+    is_new = mkdir(output, 0777) == 0;
     if (stat(output, &status) != 0 || !S_ISDIR(status.st_mode))
     {
         otx_session_refuse("the folder '%s' cannot be made", output);
@@ -97,7 +98,11 @@ otx_regress_command_run(const otx_flag_values *values)
             "where this program is cannot be found out; name it: --program");
     if (!otx_session_begin(&session, values))
         return session.exit_code;
+    session.remains = "no report was written; the cases' folders remain";
     code = run(&session, values, program ? program : own);
+    /* Nothing is in it when the suite was refused. */
+    if (is_new && code == OTX_EXIT_DATA)
+        rmdir(output);
     stopped = otx_session_end(
         &session,
         otx_session_is_stopped() ? OSDTEX_ERROR_CANCELLED : OSDTEX_OK);

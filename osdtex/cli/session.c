@@ -392,6 +392,8 @@ otx_session_end(otx_session *session, osdtex_status status)
         fputs("osdtex: error: memory is out; nothing was written\n", stderr);
     if (status != OSDTEX_ERROR_CANCELLED)
         return exit_code_of(status);
-    fputs("osdtex: stopped; nothing was written\n", stderr);
+    fprintf(
+        stderr, "osdtex: stopped; %s\n",
+        session->remains ? session->remains : "nothing was written");
     return caught_signal ? 128 + caught_signal : OTX_EXIT_LIMIT;
 }

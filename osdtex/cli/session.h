@@ -17,7 +17,9 @@ typedef struct otx_session
     double shown;   /* when progress was last shown */
     char stage[32]; /* whose progress was last shown */
     int percent;
-    int exit_code; /* of the usage error that otx_session_begin found */
+    const char *remains; /* what a stopped session says; NULL: that nothing was
+                          * written */
+    int exit_code;       /* of the usage error that otx_session_begin found */
 } otx_session;
 
 /* Makes the context from --threads, --memory-limit, --colorconfig, -v, -q and

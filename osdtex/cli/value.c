@@ -109,24 +109,3 @@ otx_value_has_extension(const char *path, const char *extension)
 
     return length > tail && strcasecmp(path + length - tail, extension) == 0;
 }
-
-void
-otx_value_put_word(FILE *out, const char *text, int length)
-{
-    static const char plain[] =
-        "abcdefghijklmnopqrstuvwxyz"
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@%+=:,./-_";
-
-    if (length > 0 && (int)strspn(text, plain) >= length)
-    {
-        fprintf(out, "%.*s", length, text);
-        return;
-    }
-    fputc('\'', out);
-    for (int i = 0; i < length; ++i)
-        if (text[i] == '\'')
-            fputs("'\\''", out);
-        else
-            fputc(text[i], out);
-    fputc('\'', out);
-}

@@ -7,7 +7,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
 
 /* A finite number. */
 bool otx_value_real(const char *text, double *out);
@@ -21,9 +20,5 @@ bool
 otx_value_word(const char *text, const char *const *words, int count, int *out);
 /* Whether `path` ends in `extension`, in upper or lower case. */
 bool otx_value_has_extension(const char *path, const char *extension);
-
-/* Prints the first `length` bytes of a text as one word of a shell: in quotes
- * where it needs them. */
-void otx_value_put_word(FILE *out, const char *text, int length);
 
 #endif

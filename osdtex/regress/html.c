@@ -114,9 +114,11 @@ x_of(const curve *c, size_t i)
 static double
 y_of(const curve *c, const json_t *number)
 {
-    const double span = c->high - c->low;
+    /* Halves, since the span itself may be beyond the largest number. */
+    const double span = c->high / 2.0 - c->low / 2.0;
     const double share =
-        span > 0.0 ? (json_number_value(number) - c->low) / span : 0.5;
+        span > 0.0 ? (json_number_value(number) / 2.0 - c->low / 2.0) / span
+                   : 0.5;
 
     return CURVE_HEIGHT - CURVE_MARGIN -
            share * (CURVE_HEIGHT - 2.0 * CURVE_MARGIN);

@@ -16,6 +16,7 @@
 enum
 {
     POLL_NANOSECONDS = 10000000,
+    GRACE_SECONDS = 5, /* to clean up in, once a child is asked to end */
     CANNOT_START = 127 /* as shells say it */
 };
 
@@ -56,6 +57,26 @@ otx_process_add_text(otx_process_words *words, const char *text)
     }
 }
 
+void
+otx_process_put_word(FILE *out, const char *text, size_t length)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyz0123456789"
+                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ@%+=:,./-_";
+
+    if (length > 0 && strspn(text, plain) >= length)
+    {
+        fprintf(out, "%.*s", (int)length, text);
+        return;
+    }
+    fputc('\'', out);
+    for (size_t i = 0; i < length; ++i)
+        if (text[i] == '\'')
+            fputs("'\\''", out);
+        else
+            fputc(text[i], out);
+    fputc('\'', out);
+}
+
 char *
 otx_process_line(const otx_process_words *words)
 {
@@ -66,9 +87,11 @@ otx_process_line(const otx_process_words *words)
     if (!out)
         return NULL;
     for (size_t i = 0; i < words->count; ++i)
-        fprintf(
-            out, strpbrk(words->items[i], " '\"$&*?#") ? "%s\"%s\"" : "%s%s",
-            i > 0 ? " " : "", words->items[i]);
+    {
+        if (i > 0)
+            fputc(' ', out);
+        otx_process_put_word(out, words->items[i], strlen(words->items[i]));
+    }
     if (fclose(out) == 0)
         return line;
     free(line);
@@ -113,6 +136,26 @@ seconds_of(const struct timeval *t)
     return (double)t->tv_sec + 1e-6 * (double)t->tv_usec;
 }
 
+/* Asks it to end, which it may do in its own way, and then makes it. */
+static int
+put_down(pid_t child, struct rusage *used)
+{
+    const struct timespec nap = {0, POLL_NANOSECONDS};
+    const double begun = now();
+    int state = 0;
+
+    kill(child, SIGTERM);
+    while (now() - begun < GRACE_SECONDS)
+    {
+        if (wait4(child, &state, WNOHANG, used) == child)
+            return state;
+        nanosleep(&nap, NULL);
+    }
+    kill(child, SIGKILL);
+    wait4(child, &state, 0, used);
+    return state;
+}
+
 /* Waits for `child`, or makes an end of it. */
 static int
 attend(
@@ -131,8 +174,7 @@ attend(
         out->stopped = options->stop && options->stop();
         if (out->timed_out || out->stopped)
         {
-            kill(child, SIGKILL);
-            wait4(child, &state, 0, used);
+            state = put_down(child, used);
             break;
         }
         nanosleep(&nap, NULL);

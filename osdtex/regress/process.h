@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 /* The words of a command line, NULL behind the last. Begins as {0}. */
 typedef struct otx_process_words
@@ -18,8 +19,11 @@ typedef struct otx_process_words
 void otx_process_add(otx_process_words *words, const char *word);
 /* The words of `text`, which stand between blanks. NULL adds none. */
 void otx_process_add_text(otx_process_words *words, const char *text);
-/* As a person would type it: words with blanks are quoted. To be freed; NULL
- * when memory ran out. */
+/* Prints the first `length` bytes of a text as one word of a shell: in quotes
+ * where it needs them. */
+void otx_process_put_word(FILE *out, const char *text, size_t length);
+/* As a person would type it, quoted for a shell. To be freed; NULL when memory
+ * ran out. */
 char *otx_process_line(const otx_process_words *words);
 void otx_process_free(otx_process_words *words);
 

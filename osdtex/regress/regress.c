@@ -7,6 +7,7 @@
 #include "regress/compare.h"
 #include "regress/history.h"
 #include "regress/metric.h"
+#include "regress/process.h"
 #include "regress/reference.h"
 #include "regress/report_page.h"
 #include "regress/trial.h"
@@ -15,6 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -253,6 +255,27 @@ is_asked_for(const otx_regress_options *options, const char *name)
     return options->name_count == 0;
 }
 
+/* What makes the case's new results the reference, for a shell. */
+static json_t *
+update_command(const bench *b, const char *name)
+{
+    const char *const words[] = {
+        "osdtex",   "regress", b->options->folder, "-o", b->options->output,
+        "--update", name};
+    otx_process_words list = {0};
+    json_t *text = NULL;
+    char *line;
+
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; ++i)
+        otx_process_add(&list, words[i]);
+    line = otx_process_line(&list);
+    if (line)
+        text = json_string(line);
+    free(line);
+    otx_process_free(&list);
+    return text;
+}
+
 static otx_regress_end
 run_case(
     bench *b, const char *name, const json_t *item, json_t *results,
@@ -267,11 +290,7 @@ run_case(
         snprintf(error, OTX_SUITE_ERROR_BYTES, "stopped");
         return OTX_REGRESS_STOPPED;
     }
-    json_object_set_new(
-        result, "update",
-        json_sprintf(
-            "osdtex regress %s -o %s --update %s", b->options->folder,
-            b->options->output, name));
+    json_object_set_new(result, "update", update_command(b, name));
     if (crash)
         json_object_set_new(result, "status", json_string("crashed"));
     if (!crash && b->options->update && !adopt(b, name, result, error))
@@ -361,19 +380,25 @@ write_results(const bench *b, json_t *results, char *error)
 {
     json_t *run = run_as_json(b, results), *metrics = metrics_of(results);
     char path[3][OTX_SUITE_PATH_BYTES];
+    const char *made[3] = {"", "", ""};
     json_t *trend;
-    bool good;
+    bool good = true;
 
     for (int i = 0; i < 3; ++i)
+    {
         snprintf(
             path[i], sizeof path[i], "%.3900s/%s", b->options->output,
             ((const char *const[]){
                 "results.json", "results.csv", "report.html"})[i]);
-    good = otx_history_append(b->options->history, run);
+        good = good && osdtex_outputs_add(
+                           b->options->context, path[i], &made[i]) == OSDTEX_OK;
+    }
+    good = good && otx_history_append(b->options->history, run);
     trend = otx_history_read(b->options->history);
-    good = json_dump_file(run, path[0], JSON_INDENT(1)) == 0 && good;
-    good = otx_reference_put_csv(metrics, path[1]) && good;
-    good = otx_report_page_write(path[2], run, trend) && good;
+    good = good && json_dump_file(run, made[0], JSON_INDENT(1)) == 0 &&
+           otx_reference_put_csv(metrics, made[1]) &&
+           otx_report_page_write(made[2], run, trend) &&
+           osdtex_outputs_commit(b->options->context) == OSDTEX_OK;
     if (good)
         say(b, "wrote %s", path[2]);
     else
@@ -387,6 +412,77 @@ write_results(const bench *b, json_t *results, char *error)
     return good;
 }
 
+/* ---- places ---------------------------------------------------------------
+ */
+
+/* Whether a path is a folder or in it, be it there yet or not. */
+static bool
+is_within(const char *path, const char *folder)
+{
+    char text[OTX_SUITE_PATH_BYTES];
+    struct stat wanted, found;
+    char *real = NULL, *slash;
+    bool within = false;
+
+    if (stat(folder, &wanted) != 0)
+        return false;
+    snprintf(text, sizeof text, "%s%s", *path == '/' ? "" : "./", path);
+    for (real = realpath(text, NULL); !real; real = realpath(text, NULL))
+    {
+        slash = strrchr(text, '/');
+        if (!slash || slash == text)
+            return false;
+        *slash = '\0';
+    }
+    for (slash = real; slash && !within; slash = strrchr(real, '/'))
+    {
+        within = stat(real, &found) == 0 && found.st_dev == wanted.st_dev &&
+                 found.st_ino == wanted.st_ino;
+        slash = strrchr(real, '/');
+        if (!slash || slash == real)
+            break;
+        *slash = '\0';
+    }
+    free(real);
+    return within;
+}
+
+static bool
+is_utf8(const char *text)
+{
+    json_t *string = json_string(text);
+
+    json_decref(string);
+    return string != NULL;
+}
+
+/* Results must not get among the references, nor the history into the table. */
+static bool
+places_are_fine(const otx_regress_options *o, char *error)
+{
+    char path[2][OTX_SUITE_PATH_BYTES];
+    const char *what = NULL, *where = o->output;
+
+    for (int i = 0; i < 2; ++i)
+        snprintf(
+            path[i], sizeof path[i], "%.3900s/%s", o->folder,
+            i == 0 ? "reference" : "table.json");
+    if (!is_utf8(o->folder) || !is_utf8(o->output))
+        what = "is not UTF-8, as results are";
+    else if (is_within(o->output, path[0]))
+        what = "is within the references of the suite";
+    else if (is_within(o->history, path[0]) || is_within(o->history, path[1]))
+    {
+        what = "is a file of the suite, and no history";
+        where = o->history;
+    }
+    if (what)
+        snprintf(
+            error, OTX_SUITE_ERROR_BYTES, "'%.300s' %s; choose another place",
+            where, what);
+    return !what;
+}
+
 otx_regress_end
 otx_regress_run(
     const otx_regress_options *options, char error[OTX_SUITE_ERROR_BYTES])
@@ -396,6 +492,8 @@ otx_regress_run(
     json_t *results;
 
     error[0] = '\0';
+    if (!places_are_fine(options, error))
+        return OTX_REGRESS_REFUSED;
     otx_reference_machine(b.machine);
     if (!otx_suite_read(options->folder, &b.suite, error))
         return OTX_REGRESS_REFUSED;

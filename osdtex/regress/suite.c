@@ -7,7 +7,8 @@
 
 enum
 {
-    NAME_BYTES = 200
+    NAME_BYTES = 200,
+    CASES_MAX = 10000
 };
 
 static bool refuse(char *error, const char *format, ...)
@@ -190,6 +191,51 @@ add_options(otx_suite *suite, json_t *row, choice c, char *error)
     return true;
 }
 
+/* What a row says beside its lists; absent is fine. */
+static bool
+check_row(const json_t *row, size_t index, char *error)
+{
+    static const char *const texts[] = {"tiles", "mask"};
+    const json_t *options = json_object_get(row, "options");
+
+    for (int i = 0; i < 2; ++i)
+    {
+        const json_t *value = json_object_get(row, texts[i]);
+
+        if (value && !json_is_string(value))
+            return refuse(error, "row %zu: \"%s\" is no text", index, texts[i]);
+    }
+    if (options && (!json_is_object(options) || json_object_size(options) == 0))
+        return refuse(
+            error,
+            "row %zu: \"options\" is an object of one or more texts, each "
+            "under the name that its cases get",
+            index);
+    return true;
+}
+
+/* A table that makes more cases than anybody runs is a mistake; counted before
+ * any is made. */
+static bool
+has_room(
+    const otx_suite *suite, const json_t *const lists[3], const json_t *row,
+    size_t index, char *error)
+{
+    const size_t options = json_object_size(json_object_get(row, "options"));
+    size_t count = options > 0 ? options : 1;
+
+    for (int i = 0; i < 3; ++i)
+        if (count <= CASES_MAX)
+            count *= json_array_size(lists[i]) < CASES_MAX
+                         ? json_array_size(lists[i])
+                         : CASES_MAX + 1;
+    if (count + json_object_size(suite->cases) <= CASES_MAX)
+        return true;
+    return refuse(
+        error, "with row %zu the table has more than %d cases; divide it",
+        index, CASES_MAX);
+}
+
 static bool
 add_row(otx_suite *suite, json_t *row, size_t index, char *error)
 {
@@ -202,7 +248,11 @@ add_row(otx_suite *suite, json_t *row, size_t index, char *error)
     json_t *cage, *exemplar, *method;
     size_t i, k, m;
 
-    if (!methods || (also && !texts_of(row, "also", index, error)))
+    if (!methods || (also && !texts_of(row, "also", index, error)) ||
+        !check_row(row, index, error) ||
+        !has_room(
+            suite, (const json_t *const[]){cages, exemplars, methods}, row,
+            index, error))
         return false;
     json_array_foreach(cages, i, cage)
     {
@@ -227,6 +277,32 @@ add_row(otx_suite *suite, json_t *row, size_t index, char *error)
     return true;
 }
 
+/* What a table says beside its rows; absent is fine. */
+static bool
+check_table(const otx_suite *suite, char *error)
+{
+    static const char *const numbers[] = {"timeout", "threads"};
+    const json_t *render = json_object_get(suite->table, "render");
+    const json_t *tolerances = json_object_get(suite->table, "tolerances");
+
+    for (int i = 0; i < 2; ++i)
+    {
+        const json_t *value = json_object_get(suite->table, numbers[i]);
+
+        if (value && !(json_number_value(value) > 0.0))
+            return refuse(
+                error, "%s/table.json: \"%s\" is no positive number",
+                suite->folder, numbers[i]);
+    }
+    if (render && !json_is_string(render))
+        return refuse(
+            error, "%s/table.json: \"render\" is no text", suite->folder);
+    if (tolerances && !json_is_object(tolerances))
+        return refuse(
+            error, "%s/table.json: \"tolerances\" is no object", suite->folder);
+    return true;
+}
+
 static bool
 read_table(otx_suite *suite, char *error)
 {
@@ -246,6 +322,8 @@ read_table(otx_suite *suite, char *error)
         return refuse(
             error, "%s/table.json has no \"rows\"; see docs/nightly.md",
             suite->folder);
+    if (!check_table(suite, error))
+        return false;
     json_array_foreach(rows, i, row)
     {
         if (!add_row(suite, row, i, error))

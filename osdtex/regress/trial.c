@@ -5,6 +5,7 @@
 #include "regress/process.h"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,29 +33,68 @@ path_in(const trial *t, const char *name, char out[OTX_SUITE_PATH_BYTES])
     snprintf(out, OTX_SUITE_PATH_BYTES, "%.3800s/%.250s", t->folder, name);
 }
 
-/* An empty folder, whatever the last run left in it. */
+/* Says that a folder is a case's, to be emptied by the next run. */
+static const char MARKER[] = ".osdtex-case";
+
+/* Names of what a case makes: nothing else is removed. */
+static bool
+is_made_here(const char *name)
+{
+    static const char *const names[] = {
+        "tiles.exr", "log.txt", "report.json", "picture.png"};
+    static const size_t stem = sizeof "model" - 1;
+
+    for (int i = 0; i < 4; ++i)
+        if (strcmp(name, names[i]) == 0)
+            return true;
+    return strncmp(name, "model", stem) == 0 &&
+           (name[stem] == '.' || name[stem] == '_');
+}
+
+/* Removes what the last run left in the folder; false when the folder is
+ * somebody else's. */
+static bool
+empty_folder(int fd)
+{
+    const bool is_ours = faccessat(fd, MARKER, F_OK, AT_SYMLINK_NOFOLLOW) == 0;
+    DIR *folder = fdopendir(dup(fd));
+    const struct dirent *entry;
+    bool fine = folder != NULL;
+
+    while (fine && (entry = readdir(folder)) != NULL)
+    {
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0)
+            continue;
+        fine = is_ours;
+        if (is_ours && is_made_here(entry->d_name))
+            unlinkat(fd, entry->d_name, 0);
+    }
+    if (folder)
+        closedir(folder);
+    return fine;
+}
+
+/* A folder of its own, not through a link, without the files of the last run.
+ */
 static bool
 make_folder(trial *t, const char *name)
 {
-    char path[OTX_SUITE_PATH_BYTES];
-    const struct dirent *entry;
-    DIR *folder;
+    int fd, marker = -1;
 
     snprintf(
         t->folder, sizeof t->folder, "%.3500s/%.250s", t->options->output,
         name);
     mkdir(t->folder, 0777);
-    folder = opendir(t->folder);
-    if (!folder)
+    fd = open(t->folder, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (fd < 0)
         return false;
-    while ((entry = readdir(folder)) != NULL)
-    {
-        path_in(t, entry->d_name, path);
-        if (entry->d_name[0] != '.')
-            unlink(path);
-    }
-    closedir(folder);
-    return true;
+    if (empty_folder(fd))
+        marker = openat(
+            fd, MARKER, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (marker >= 0)
+        close(marker);
+    close(fd);
+    return marker >= 0;
 }
 
 /* The last lines of the log, for the report. */
@@ -271,7 +311,7 @@ hash_file(trial *t, const char *name, char hash[OSDTEX_HASH_BYTES])
 
     for (int i = 0; i < 4; ++i)
         is_text = is_text || ends_in(name, texts[i]);
-    if (!is_text && !ends_in(name, ".exr"))
+    if (!is_made_here(name) || (!is_text && !ends_in(name, ".exr")))
         return false;
     path_in(t, name, path);
     good = is_text ? otx_compare_hash_text(path, hash)
@@ -324,7 +364,11 @@ otx_trial_run(
     const double calibration = otx_metric_calibrate();
 
     if (!make_folder(&t, name))
-        crash(&t, json_sprintf("%s cannot be made", t.folder));
+        crash(
+            &t, json_sprintf(
+                    "%s cannot be made, is a link, or holds files that osdtex "
+                    "regress did not put there",
+                    t.folder));
     else if (map(&t) && render(&t))
     {
         hash_files(&t);

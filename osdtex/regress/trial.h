@@ -10,7 +10,8 @@ typedef struct otx_trial_options
 {
     osdtex_context *context;
     const char *program;
-    const char *output; /* folder; OUTPUT/CASE/ is emptied and filled */
+    const char *output; /* folder; OUTPUT/CASE/ is filled, and what the last run
+                         * left there goes */
     bool (*stop)(void);
 } otx_trial_options;
 

@@ -9,7 +9,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
 
-from program import CAGES, EXEMPLARS, PROGRAM, ProgramTest, main  # noqa: E402
+from program import (
+    CAGES, ENVIRONMENT, EXEMPLARS, PROGRAM, ProgramTest, main)  # noqa: E402
 
 # Runs osdtex, then spoils what the case in $VICTIM got, as $DAMAGE says.
 WRAPPER = '''
