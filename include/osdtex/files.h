@@ -55,6 +55,10 @@ enum
 OSDTEX_API void
 osdtex_outputs_source(const char *path, char source[OSDTEX_SOURCE_BYTES]);
 
+/* Makes of a name, in place, what files beside NAME.obj are called by: `_`
+ * stands for what readers of OBJ, MTL, USD or MaterialX would not take. */
+OSDTEX_API void osdtex_outputs_word(char *name);
+
 /* What a file says of itself. */
 typedef struct osdtex_output_mark
 {

@@ -1,5 +1,6 @@
 /* outputs_call.c -- files of several calls that appear together. */
 #include "api/call.h"
+#include "export/names.h"
 #include "file/atomic_file.h"
 
 #include <string.h>
@@ -79,6 +80,13 @@ osdtex_outputs_source(const char *path, char source[OSDTEX_SOURCE_BYTES])
 
     otx_mark_set_source(&mark, path);
     strcpy(source, mark.source);
+}
+
+void
+osdtex_outputs_word(char *name)
+{
+    if (name)
+        otx_names_make_word(name);
 }
 
 void

@@ -56,7 +56,7 @@ name_textures(otx_map_request *r)
 }
 
 /* NAME.mtl and NAME.exr beside NAME.obj, NAME_cage.obj and NAME_cage.mtl of a
- * bake; blanks become `_` there, as readers split at them. */
+ * bake; what readers would not take becomes `_` there. */
 static bool
 name_outputs(otx_map_request *r)
 {
@@ -72,10 +72,9 @@ name_outputs(otx_map_request *r)
     }
     memcpy(r->obj, path, length + 1);
     memcpy(r->mtl, path, length + 1);
+    r->mtl[length - 4] = '\0';
     name = strrchr(r->mtl, '/');
-    for (name = name ? name + 1 : r->mtl; *name; ++name)
-        if (*name == ' ')
-            *name = '_';
+    osdtex_outputs_word(name ? name + 1 : r->mtl);
     memcpy(r->mtl + length - 4, ".mtl", 5);
     if (name_textures(r) && name_beside(r->mtl, "_cage.obj", r->cage_obj) &&
         name_beside(r->mtl, "_cage.mtl", r->cage_mtl))

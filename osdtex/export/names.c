@@ -1,6 +1,7 @@
 /* names.c -- which files a model is made of. */
 #include "export/names.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -11,21 +12,55 @@ static const char SUFFIX[] = ".obj";
 static bool
 is_split_by_readers(char c)
 {
-    return c == ' ' || c == '\t' || c == '#' || c == '\\';
+    return (unsigned char)c <= ' ' || c == 127 || c == '#' || c == '\\';
 }
 
-/* Makes one word of `stem`; whether anything changed. */
-static bool
-make_word(char *stem)
+/* Bytes of the UTF-8 character at `text`, 0 when it is none: texts of USD and
+ * MaterialX are UTF-8 as a whole. */
+static size_t
+utf8_length(const char *text)
+{
+    static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+    const unsigned char *c = (const unsigned char *)text;
+    const size_t length = c[0] < 0x80             ? 1
+                          : (c[0] & 0xE0) == 0xC0 ? 2
+                          : (c[0] & 0xF0) == 0xE0 ? 3
+                          : (c[0] & 0xF8) == 0xF0 ? 4
+                                                  : 0;
+    uint32_t value = c[0] & (0xFFu >> (length + 1));
+
+    for (size_t i = 1; i < length; ++i)
+    {
+        if ((c[i] & 0xC0) != 0x80)
+            return 0;
+        value = value << 6 | (c[i] & 0x3F);
+    }
+    if (length < 2)
+        return length;
+    /* Overlong forms, halves of UTF-16 pairs, XML's forbidden ones. */
+    return value < least[length] || value > 0x10FFFF ||
+                   (value >= 0xD800 && value < 0xE000) ||
+                   (value >= 0x80 && value < 0xA0) || (value & 0xFFFE) == 0xFFFE
+               ? 0
+               : length;
+}
+
+bool
+otx_names_make_word(char *stem)
 {
     bool changed = false;
 
-    for (char *c = stem; *c; ++c)
-        if (is_split_by_readers(*c) || (c == stem && *c == '-'))
+    for (char *c = stem; *c;)
+    {
+        const size_t length = utf8_length(c);
+
+        if (length == 0 || is_split_by_readers(*c) || (c == stem && *c == '-'))
         {
             *c = '_';
             changed = true;
         }
+        c += length > 0 ? length : 1;
+    }
     return changed;
 }
 
@@ -69,11 +104,11 @@ otx_names_derive(
     if (!stem)
         return otx_fail_memory(run, STAGE);
     stem[name_bytes - suffix_bytes] = '\0';
-    if (make_word(stem))
+    if (otx_names_make_word(stem))
         otx_note(
             run, OSDTEX_SEVERITY_WARNING, STAGE, where,
-            "readers split names at blanks, so the material file and the "
-            "texture are called %s.mtl and %s.exr",
+            "readers split names at blanks and know UTF-8 only, so the "
+            "material file and the texture are called %s.mtl and %s.exr",
             stem, stem);
     *out = (otx_names){
         .obj = otx_arena_strdup(arena, path),

@@ -23,11 +23,15 @@ typedef struct otx_names
         *texture_names[OTX_NAMES_TEXTURES]; /* as the MTL refers to them */
 } otx_names;
 
-/* Derives NAME.mtl and NAME.exr from `path`, FOLDER/NAME.obj. What readers of
- * OBJ and MTL split, take for a comment or for an option (blanks, `#`, `\`, a
- * leading `-`) becomes `_` in the derived names, with a warning; the OBJ's own
- * name is left as it is. ARGUMENT when `path` does not end in ".obj" after a
- * name, MEMORY. */
+/* Makes one word of a name that all readers take: `_` stands for what OBJ and
+ * MTL readers split at, take for a comment or for an option (blanks, `#`, `\`,
+ * a leading `-`), for control characters, and for what is not UTF-8. Whether
+ * anything changed. */
+bool otx_names_make_word(char *stem);
+
+/* Derives NAME.mtl and NAME.exr from `path`, FOLDER/NAME.obj: derived names are
+ * made one word, with a warning, and the OBJ's own is left as it is. ARGUMENT
+ * when `path` does not end in ".obj" after a name, MEMORY. */
 otx_status otx_names_derive(
     otx_run *run, otx_arena *arena, const char *path, otx_names *out);
 

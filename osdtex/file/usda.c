@@ -314,14 +314,33 @@ source_color_space(const otx_usda *u)
                : "raw";
 }
 
+/* Between single `@` or, where there is one in the name, between three: there
+ * only a run of three needs a backslash. */
+static void
+write_asset(otx_text_out *out, const char *path)
+{
+    const char *delimiter = strchr(path, '@') ? "@@@" : "@";
+
+    otx_text_out_string(out, delimiter);
+    for (; *path; ++path)
+    {
+        if (strncmp(path, "@@@", 3) == 0)
+        {
+            otx_text_out_string(out, "\\@@@");
+            path += 2;
+            continue;
+        }
+        otx_text_out_char(out, *path);
+    }
+    otx_text_out_string(out, delimiter);
+}
+
 /* The asset and, as metadata of the attribute, the space of its colours, which
  * UsdShade defines for what is colour managed. */
 static void
 write_texture(otx_text_out *out, const otx_usda *u)
 {
-    otx_text_out_char(out, '@');
-    otx_text_out_string(out, u->texture);
-    otx_text_out_char(out, '@');
+    write_asset(out, u->texture);
     if (!u->interop_id)
         return;
     otx_text_out_string(out, " (\n                colorSpace = \"");
