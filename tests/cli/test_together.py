@@ -53,7 +53,7 @@ class Together(ProgramTest):
         numbers = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP,
                    signal.SIGXCPU, signal.SIGUSR1, signal.SIGUSR2,
                    signal.SIGALRM, signal.SIGQUIT]
-        for i in range(16):
+        for i in range(10):
             number = numbers[i % len(numbers)]
             job = self.start()
             # Before that no program could catch anything.

@@ -105,12 +105,8 @@ class Update(ProgramTest):
 
     def test_outputs_are_whole(self):
         def again():
-            return self.map_u("--preview", self.folder / "a.png", "--show",
-                              "uv", "--json-report", self.folder / "a.json")
+            return self.map_u()
         self.assertTrue(again())
-        self.assertEqual(
-            sorted(p.name for p in self.folder.iterdir()),
-            ["a.exr", "a.json", "a.mtl", "a.obj", "a.png"])
         for name, ways in (("a.obj", ("other", "short")), ("a.mtl", ("empty",)),
                            ("a.exr", ("other", "long", "changed"))):
             self.damage(self.folder / name, again, ways)
