@@ -14,7 +14,7 @@ from program import CAGES, ENVIRONMENT, EXEMPLARS, PROGRAM, ProgramTest, main
 GRAVEL = EXEMPLARS / "gravel_tile.png"
 
 # Stopping takes a fraction of a second; what is left is for a busy machine.
-SECONDS = 10
+SECONDS = 30
 
 
 class Stop(ProgramTest):
