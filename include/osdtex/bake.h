@@ -28,6 +28,14 @@ enum
     OSDTEX_BAKE_SEAM = 8     /* 1 where patches meet */
 };
 
+/* Which axis points up in the scene. Nothing is turned. */
+typedef int32_t osdtex_up_axis;
+enum
+{
+    OSDTEX_UP_Y = 0,
+    OSDTEX_UP_Z = 1
+};
+
 typedef struct osdtex_bake_options
 {
     size_t size;
@@ -45,7 +53,13 @@ typedef struct osdtex_bake_options
     const char *texture_comment; /* for the headers of textures; NULL */
     /* Not NULL: with the bake, what osdtex_mapping_write() writes. */
     const osdtex_write_options *mesh;
-    int32_t udim; /* bake this tile only; 0 all */
+    int32_t udim;           /* bake this tile only; 0 all */
+    osdtex_up_axis up_axis; /* of the scene, for NAME.usda */
+    double meters_per_unit; /* of a scene unit, for NAME.usda; 0: 1 where the
+                             * textures are for Blender or Houdini, else 0.01,
+                             * as USD takes what says nothing */
+    int32_t normals;        /* 1: those of the limit in NAME_cage.obj; of a
+                             * plain mesh in NAME.usda, too */
     int32_t reserved;
 } osdtex_bake_options;
 

@@ -53,6 +53,9 @@ typedef struct osdtex_cage_options
     osdtex_boundary boundary; /* OSDTEX_UNSET: the file's */
     osdtex_fvar fvar;         /* OSDTEX_UNSET: the file's */
     int32_t reserved;
+    double weld; /* vertices within this many scene units become the first of
+                  * them; 0: none; negative: within a millionth of the bounding
+                  * box's diagonal */
 } osdtex_cage_options;
 
 static inline osdtex_cage_options

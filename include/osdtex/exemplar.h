@@ -65,6 +65,8 @@ typedef struct osdtex_exemplar_options
     osdtex_wrap wrap;
     osdtex_tileable tileable;
     osdtex_receiver receiver; /* of the textures; `to` wins over it */
+    const char *layer; /* of an EXR, by name; NULL: plain R, G, B of any part,
+                        * else what is called as beauties are */
 } osdtex_exemplar_options;
 
 static inline osdtex_exemplar_options

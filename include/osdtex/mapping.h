@@ -145,6 +145,9 @@ typedef struct osdtex_write_options
     const char *const *comments; /* [comment_count] lines for OBJ, MTL */
     int32_t comment_count;
     int32_t without_image; /* 1: neither write nor replace the EXR */
+    int32_t normals;       /* 1: `vn` too, of the limit surface, one for each
+                            * side of an infinitely sharp crease */
+    int32_t reserved;
 } osdtex_write_options;
 
 static inline osdtex_write_options

@@ -35,6 +35,11 @@ check(
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "bake", OTX_NOWHERE,
             "there are no such UVs or extra outputs");
+    if (!(ours->meters_per_unit >= 0.0 && isfinite(ours->meters_per_unit)) ||
+        ours->up_axis < OSDTEX_UP_Y || ours->up_axis > OSDTEX_UP_Z)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "bake", OTX_NOWHERE,
+            "the scene has no such unit or axis that points up");
     if (!(ours->seam_blend >= 0.0 && isfinite(ours->seam_blend)))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "bake", OTX_NOWHERE,
@@ -60,12 +65,16 @@ bake(
     OTX_TRY(check(&call->run, mapping, path, &ours, &mesh));
     model = (otx_model_options){
         .without_image = mesh.without_image != 0,
+        .normals = mesh.normals != 0,
         .comment_count = mesh.comment_count,
         .comments = mesh.comments};
     how.mesh = ours.mesh ? &model : NULL;
     place = layout_options(&ours);
     how.seam_blend = ours.seam_blend;
     how.udim = ours.udim;
+    how.meters_per_unit = ours.meters_per_unit;
+    how.normals = ours.normals != 0;
+    how.z_up = ours.up_axis == OSDTEX_UP_Z;
     how.texture_comment = ours.texture_comment;
     how.comments = ours.comments;
     how.comment_count = ours.comment_count;

@@ -183,6 +183,10 @@ build(
     how.scheme = (otx_scheme)options->scheme;
     how.boundary = options->boundary;
     how.fvar = options->fvar;
+    /* Zero says nothing here, and the usual distance there. */
+    how.weld = options->weld > 0.0   ? options->weld
+               : options->weld < 0.0 ? 0.0
+                                     : -1.0;
     handle->arena = run->arena;
     OTX_TRY(otx_cage_build(run, input, &how, &handle->cage));
     handle->info = info_of(&handle->cage);
@@ -211,6 +215,10 @@ check_options(
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "cage", OTX_NOWHERE,
             "scheme, boundary or fvar is none of the values of osdtex.h");
+    if (!isfinite(ours->weld))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "cage", OTX_NOWHERE,
+            "the distance of vertices to weld is not a finite number");
     return OSDTEX_OK;
 }
 

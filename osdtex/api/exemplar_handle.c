@@ -5,6 +5,7 @@
 #include "api/picture_source.h"
 #include "base/hash.h"
 #include "file/picture.h"
+#include "image/opaque.h"
 #include "quilt/period.h"
 #include "quilt/toroid.h"
 
@@ -152,11 +153,51 @@ make_tileable(otx_run *run, osdtex_tileable how, osdtex_exemplar *handle)
         run, &source, toroid.map.texels, &handle->exemplar);
 }
 
+/* A picture is cut to its part without transparent texels where that part is
+ * at least this share of it. */
+static const double opaque_share_min = 0.25;
+
+/* Transparent texels are no source. Where they are what the picture is about,
+ * as in lace, or the user says that it tiles as it is, they stay, and are told.
+ */
+static otx_status
+avoid_transparent(otx_run *run, osdtex_wrap wrap, otx_exemplar *exemplar)
+{
+    const otx_where where = {exemplar->source_path, 0, -1, -1};
+    const double texels =
+        (double)exemplar->linear.width * exemplar->linear.height;
+    otx_opaque o;
+
+    if (!otx_opaque_find(run->scratch, &exemplar->linear, &o))
+        return otx_fail_memory(run, "exemplar");
+    if (o.transparent == 0.0)
+        return OSDTEX_OK;
+    if (wrap != OSDTEX_WRAP_YES &&
+        (double)o.width * o.height >= opaque_share_min * texels &&
+        o.width >= OTX_EXEMPLAR_MIN_SIDE && o.height >= OTX_EXEMPLAR_MIN_SIDE)
+    {
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, "exemplar", where,
+            "%.1f %% of the picture are transparent; only its %d x %d texels "
+            "from (%d, %d), counted from the lower left, are used, where there "
+            "are none",
+            100.0 * o.transparent, o.width, o.height, o.x, o.y);
+        return otx_exemplar_crop(
+            run, exemplar, o.x, o.y, o.width, o.height, exemplar);
+    }
+    otx_note(
+        run, OSDTEX_SEVERITY_WARNING, "exemplar", where,
+        "%.1f %% of the picture are transparent, and no part without that is "
+        "large enough to be used alone; the texture will have holes",
+        100.0 * o.transparent);
+    return OSDTEX_OK;
+}
+
 /* Builds the handle. `input` holds what is known of the pixels. */
 static otx_status
 build(
     otx_call *call, otx_exemplar_input *input,
-    const osdtex_exemplar_options *options, const char *type,
+    const osdtex_exemplar_options *options, const char *type, bool is_tiles,
     osdtex_exemplar **out)
 {
     otx_run *run = &call->run;
@@ -175,6 +216,8 @@ build(
     handle->arena = run->arena;
     OTX_TRY(otx_exemplar_build(run, colour, input, &handle->exemplar));
     width = handle->exemplar.linear.width;
+    if (!is_tiles)
+        OTX_TRY(avoid_transparent(run, options->wrap, &handle->exemplar));
     /* Who says that it does not tile wants it so. */
     if (options->wrap != OSDTEX_WRAP_NO ||
         options->tileable == OSDTEX_TILEABLE_MAKE)
@@ -233,7 +276,7 @@ read_exemplar(
             "no path of an exemplar is given");
     OTX_TRY(check_options(&call->run, options, &ours));
     OTX_TRY(otx_call_aside(call, &aside));
-    OTX_TRY(otx_picture_read(&aside, path, &picture));
+    OTX_TRY(otx_picture_read_layer(&aside, path, ours.layer, &picture));
     OTX_TRY(keep_source(&call->run, path, &input));
     input.pixels = picture.image;
     input.alpha_is_premultiplied = picture.alpha_is_premultiplied;
@@ -244,7 +287,8 @@ read_exemplar(
         ours.wrap = OSDTEX_WRAP_NO;
         ours.tileable = OSDTEX_TILEABLE_KEEP;
     }
-    OTX_TRY(build(call, &input, &ours, type_of(&picture), out));
+    OTX_TRY(build(
+        call, &input, &ours, type_of(&picture), picture.tiles != NULL, out));
     return picture.tiles ? keep_tiles(&call->run, path, picture.tiles, *out)
                          : OSDTEX_OK;
 }
@@ -280,7 +324,7 @@ create_exemplar(
     input.alpha_is_premultiplied = true;
     input.source.from = ours.from;
     input.source.is_float = true;
-    return build(call, &input, &ours, NULL, out);
+    return build(call, &input, &ours, NULL, false, out);
 }
 
 osdtex_status

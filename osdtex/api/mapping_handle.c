@@ -172,6 +172,7 @@ write_mapping(
             run, OSDTEX_ERROR_ARGUMENT, "export", OTX_NOWHERE,
             "no mapping, no path, or no comments are given");
     how.without_image = ours.without_image != 0;
+    how.normals = ours.normals != 0;
     how.comment_count = ours.comment_count;
     how.comments = ours.comments;
     return otx_model_write(

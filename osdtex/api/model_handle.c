@@ -8,8 +8,11 @@
 #include "file/mtl.h"
 #include "file/obj.h"
 #include "file/picture.h"
+#include "file/udim_name.h"
+#include "image/udim.h"
 #include "render/mapped_scene.h"
 
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -20,6 +23,14 @@ typedef struct source
     int32_t texture; /* -1: the file is not there */
 } source;
 
+/* What a material shows. */
+typedef struct material_look
+{
+    int32_t texture;     /* -1 none */
+    bool is_constant;    /* a texture of one texel, for faces without UVs too */
+    const char *pattern; /* of files that are one for each UDIM tile; NULL */
+} material_look;
+
 typedef struct loader
 {
     otx_call *call;
@@ -27,11 +38,13 @@ typedef struct loader
     const otx_colour *colour;
     const char *linear; /* scene_linear of the configuration */
     otx_scene *scene;
-    otx_scene_texture *textures; /* [materials + 1] */
+    otx_scene_texture *textures; /* room for each material, and where there are
+                                  * UDIM tiles for each face */
     int32_t texture_count;
-    source *sources; /* [materials + 1] */
+    source *sources; /* likewise */
     int32_t source_count;
-    int32_t *material_texture; /* [materials], -1 none */
+    material_look *looks; /* [materials + 1] */
+    bool has_constants;
 } loader;
 
 /* `name` beside the file `path`, in `arena`; NULL when memory is out. Windows
@@ -107,26 +120,60 @@ texture_of(loader *l, const char *path, int32_t *out)
     return OSDTEX_OK;
 }
 
+/* A texture of one texel: Kd, whose numbers are taken as scene_linear, as
+ * those of a texture in EXR are. */
+static otx_status
+constant_of(loader *l, const float color[3], int32_t *out)
+{
+    otx_run *run = &l->call->run;
+    otx_image image;
+
+    OTX_TRY(otx_image_create(run, run->arena, 1, 1, 3, &image));
+    memcpy(image.pixels, color, 3 * sizeof *color);
+    *out = l->texture_count++;
+    l->textures[*out] = (otx_scene_texture){image, true, true};
+    return OSDTEX_OK;
+}
+
+/* What a material of the library at `path` shows: its map, else its colour. */
+static otx_status
+look_of(
+    loader *l, const char *path, const otx_mtl_material *material,
+    material_look *out)
+{
+    otx_run *run = &l->call->run;
+    const char *texture;
+
+    if (material->map_kd)
+    {
+        texture = beside(run->arena, path, material->map_kd);
+        if (!texture)
+            return otx_fail_memory(run, "model");
+        if (otx_udim_name_is_pattern(texture))
+            out->pattern = texture;
+        else
+            OTX_TRY(texture_of(l, texture, &out->texture));
+        return OSDTEX_OK;
+    }
+    if (!material->has_diffuse)
+        return OSDTEX_OK;
+    out->is_constant = l->has_constants = true;
+    return constant_of(l, material->diffuse, &out->texture);
+}
+
 /* Gives the materials of one library their textures. */
 static otx_status
 use_library(loader *l, const char *path)
 {
-    otx_run *run = &l->call->run;
     otx_mtl mtl;
 
-    OTX_TRY(otx_mtl_read(run, path, &mtl));
+    OTX_TRY(otx_mtl_read(&l->call->run, path, &mtl));
     for (int32_t m = 0; m < l->obj->materials.count; ++m)
     {
         const int32_t found = otx_mtl_find(&mtl, l->obj->materials.text[m]);
-        const char *texture;
 
-        if (found < 0 || !mtl.materials[found].map_kd ||
-            l->material_texture[m] >= 0)
-            continue;
-        texture = beside(run->arena, path, mtl.materials[found].map_kd);
-        if (!texture)
-            return otx_fail_memory(run, "model");
-        OTX_TRY(texture_of(l, texture, &l->material_texture[m]));
+        if (found >= 0 && l->looks[m].texture < 0 && !l->looks[m].pattern)
+            OTX_TRY(look_of(l, path, &mtl.materials[found], &l->looks[m]));
     }
     return OSDTEX_OK;
 }
@@ -157,6 +204,56 @@ use_libraries(loader *l)
     return OSDTEX_OK;
 }
 
+/* The texture of the UDIM tile that a face lies in, -1 where there is none;
+ * the face's UVs become those within the tile.
+ *
+ *   uvs  of the face's corners */
+static otx_status
+tile_texture(
+    loader *l, const char *pattern, float *uvs, int32_t size, int32_t *out)
+{
+    double middle[2] = {0.0, 0.0};
+    double column, row;
+    const char *path;
+
+    *out = -1;
+    for (int32_t i = 0; i < size; ++i)
+        for (int k = 0; k < 2; ++k)
+            middle[k] += (double)uvs[2 * (size_t)i + k] / size;
+    column = floor(middle[0]);
+    row = floor(middle[1]);
+    if (!(column >= 0.0 && column < OTX_UDIM_COLUMNS && row >= 0.0 &&
+          row < OTX_UDIM_ROWS))
+        return OSDTEX_OK;
+    path = otx_udim_name_of(
+        l->call->run.arena, pattern,
+        otx_udim_tile((int32_t)column, (int32_t)row));
+    if (!path)
+        return otx_fail_memory(&l->call->run, "model");
+    for (int32_t i = 0; i < size; ++i)
+    {
+        uvs[2 * (size_t)i] -= (float)column;
+        uvs[2 * (size_t)i + 1] -= (float)row;
+    }
+    return texture_of(l, path, out);
+}
+
+/* What a face shows: nothing without UVs, but for a constant. */
+static otx_status
+face_texture_of(
+    loader *l, int32_t material, bool has_uvs, float *uvs, int32_t size,
+    int32_t *out)
+{
+    const material_look *look = material >= 0 ? &l->looks[material] : NULL;
+
+    *out = -1;
+    if (!look || (!has_uvs && !look->is_constant))
+        return OSDTEX_OK;
+    *out = look->texture;
+    return look->pattern ? tile_texture(l, look->pattern, uvs, size, out)
+                         : OSDTEX_OK;
+}
+
 /* Per-corner UVs and per-face textures from the OBJ's indices. */
 static otx_status
 spread_uvs(loader *l)
@@ -175,12 +272,13 @@ spread_uvs(loader *l)
             obj->face_material ? obj->face_material[f] : -1;
         const bool has_uvs = obj->face_uvs && obj->face_uvs[first] >= 0;
 
-        face_texture[f] =
-            material >= 0 && has_uvs ? l->material_texture[material] : -1;
         for (int32_t c = first; has_uvs && c < obj->face_first[f + 1]; ++c)
             memcpy(
                 uvs + 2 * (size_t)c, obj->uvs + 2 * (size_t)obj->face_uvs[c],
                 2 * sizeof *uvs);
+        OTX_TRY(face_texture_of(
+            l, material, has_uvs, uvs + 2 * (size_t)first,
+            obj->face_first[f + 1] - first, &face_texture[f]));
     }
     l->scene->uvs = uvs;
     l->scene->face_texture = face_texture;
@@ -233,19 +331,20 @@ hole_faces(otx_run *run, const otx_obj *obj, otx_scene *scene)
 static otx_status
 load(loader *l)
 {
-    const size_t slots = (size_t)l->obj->materials.count + 1;
+    const size_t materials = (size_t)l->obj->materials.count + 1;
+    const size_t slots = materials + (size_t)l->obj->face_count;
     otx_run *run = &l->call->run;
 
     l->textures = OTX_ZNEW(run->arena, otx_scene_texture, slots);
     l->sources = OTX_ZNEW(run->arena, source, slots);
-    l->material_texture = OTX_NEW(run->arena, int32_t, slots);
-    if (!l->textures || !l->sources || !l->material_texture)
+    l->looks = OTX_NEW(run->arena, material_look, materials);
+    if (!l->textures || !l->sources || !l->looks)
         return otx_fail_memory(run, "model");
-    for (size_t m = 0; m < slots; ++m)
-        l->material_texture[m] = -1;
+    for (size_t m = 0; m < materials; ++m)
+        l->looks[m] = (material_look){.texture = -1};
     OTX_TRY(use_libraries(l));
     OTX_TRY(hole_faces(run, l->obj, l->scene));
-    if (l->obj->uv_count == 0)
+    if (l->obj->uv_count == 0 && !l->has_constants)
         return OSDTEX_OK;
     OTX_TRY(spread_uvs(l));
     choose_wrapping(l);

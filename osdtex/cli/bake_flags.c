@@ -106,11 +106,57 @@ parse_extras(const otx_flag_values *values, osdtex_bake_options *out)
     return true;
 }
 
+/* A unit by name, or metres to a scene unit. */
+static bool
+parse_units(const otx_flag_values *values, osdtex_bake_options *out)
+{
+    static const char *const names[] = {"m", "cm", "mm", "km", "in", "ft"};
+    static const double meters[] = {1.0, 0.01, 0.001, 1000.0, 0.0254, 0.3048};
+    const char *text = values->text[OTX_FLAG_UNITS];
+    int index;
+
+    if (!text)
+        return true;
+    if (otx_value_word(text, names, 6, &index))
+        out->meters_per_unit = meters[index];
+    else if (
+        !otx_value_real(text, &out->meters_per_unit) ||
+        !(out->meters_per_unit > 0.0))
+    {
+        otx_session_refuse(
+            "--units takes m, cm, mm, km, in, ft, or how many metres a scene "
+            "unit is, not '%s'",
+            text);
+        return false;
+    }
+    return true;
+}
+
+static bool
+parse_up(const otx_flag_values *values, osdtex_bake_options *out)
+{
+    static const char *const words[] = {"y", "z"};
+    const char *text = values->text[OTX_FLAG_UP];
+    int index;
+
+    if (!text)
+        return true;
+    if (!otx_value_word(text, words, 2, &index))
+    {
+        otx_session_refuse("--up takes y or z, not '%s'", text);
+        return false;
+    }
+    out->up_axis = index;
+    return true;
+}
+
 bool
 otx_bake_flags_parse(const otx_flag_values *values, osdtex_bake_options *out)
 {
     *out = osdtex_bake_options_default();
+    out->normals = values->text[OTX_FLAG_NORMALS] != NULL;
     out->preview_png = values->text[OTX_FLAG_PREVIEW_PNG] != NULL;
     return parse_uvs(values, out) && parse_numbers(values, out) &&
-           parse_extras(values, out);
+           parse_extras(values, out) && parse_units(values, out) &&
+           parse_up(values, out);
 }

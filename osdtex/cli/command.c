@@ -7,6 +7,7 @@
 
 static const otx_flag_id map_flags[] = {
     OTX_FLAG_OUTPUT,
+    OTX_FLAG_NORMALS,
     OTX_FLAG_METHOD,
     OTX_FLAG_SCALE,
     OTX_FLAG_LEVEL,
@@ -24,7 +25,9 @@ static const otx_flag_id map_flags[] = {
     OTX_FLAG_SCHEME,
     OTX_FLAG_BOUNDARY,
     OTX_FLAG_FVAR,
+    OTX_FLAG_WELD,
     OTX_FLAG_FROM,
+    OTX_FLAG_LAYER,
     OTX_FLAG_TO,
     OTX_FLAG_RECEIVER,
     OTX_FLAG_MATCH_SPACE,
@@ -49,47 +52,101 @@ static const otx_flag_id map_flags[] = {
     OTX_FLAG_TEXELS_PER_UNIT,
     OTX_FLAG_EXTRA,
     OTX_FLAG_PREVIEW_PNG,
+    OTX_FLAG_UNITS,
+    OTX_FLAG_UP,
     OTX_FLAG_SHOW,
     OTX_FLAG_FOLLOW,
     OTX_FLAG_COUNT};
 
 static const otx_flag_id bake_flags[] = {
-    OTX_FLAG_OUTPUT,      OTX_FLAG_METHOD,
-    OTX_FLAG_SCALE,       OTX_FLAG_LEVEL,
-    OTX_FLAG_SEED,        OTX_FLAG_SET,
-    OTX_FLAG_ALSO,        OTX_FLAG_MASK,
-    OTX_FLAG_TILE_LEVEL,  OTX_FLAG_FIRST_PATCH,
-    OTX_FLAG_CONSTRAINTS, OTX_FLAG_EXEMPLAR_CLASS,
-    OTX_FLAG_GENERATORS,  OTX_FLAG_PREVIEW,
-    OTX_FLAG_JSON_REPORT, OTX_FLAG_BAKE_UVS,
-    OTX_FLAG_RESOLUTION,  OTX_FLAG_MARGIN,
-    OTX_FLAG_SEAM_BLEND,  OTX_FLAG_TEXELS_PER_UNIT,
-    OTX_FLAG_EXTRA,       OTX_FLAG_PREVIEW_PNG,
-    OTX_FLAG_UDIM,        OTX_FLAG_SCHEME,
-    OTX_FLAG_BOUNDARY,    OTX_FLAG_FVAR,
-    OTX_FLAG_FROM,        OTX_FLAG_TO,
-    OTX_FLAG_RECEIVER,    OTX_FLAG_MATCH_SPACE,
-    OTX_FLAG_MATCH_IN,    OTX_FLAG_WRAP,
-    OTX_FLAG_TILEABLE,    OTX_FLAG_COLORCONFIG,
-    OTX_FLAG_THREADS,     OTX_FLAG_MEMORY_LIMIT,
-    OTX_FLAG_REPLACE,     OTX_FLAG_DRY_RUN,
-    OTX_FLAG_UPDATE,      OTX_FLAG_VERBOSE,
-    OTX_FLAG_QUIET,       OTX_FLAG_HELP,
-    OTX_FLAG_VERSION,     OTX_FLAG_SHOW,
-    OTX_FLAG_FOLLOW,      OTX_FLAG_COUNT};
+    OTX_FLAG_OUTPUT,
+    OTX_FLAG_NORMALS,
+    OTX_FLAG_METHOD,
+    OTX_FLAG_SCALE,
+    OTX_FLAG_LEVEL,
+    OTX_FLAG_SEED,
+    OTX_FLAG_SET,
+    OTX_FLAG_ALSO,
+    OTX_FLAG_MASK,
+    OTX_FLAG_TILE_LEVEL,
+    OTX_FLAG_FIRST_PATCH,
+    OTX_FLAG_CONSTRAINTS,
+    OTX_FLAG_EXEMPLAR_CLASS,
+    OTX_FLAG_GENERATORS,
+    OTX_FLAG_PREVIEW,
+    OTX_FLAG_JSON_REPORT,
+    OTX_FLAG_BAKE_UVS,
+    OTX_FLAG_RESOLUTION,
+    OTX_FLAG_MARGIN,
+    OTX_FLAG_SEAM_BLEND,
+    OTX_FLAG_TEXELS_PER_UNIT,
+    OTX_FLAG_EXTRA,
+    OTX_FLAG_PREVIEW_PNG,
+    OTX_FLAG_UNITS,
+    OTX_FLAG_UP,
+    OTX_FLAG_UDIM,
+    OTX_FLAG_SCHEME,
+    OTX_FLAG_BOUNDARY,
+    OTX_FLAG_FVAR,
+    OTX_FLAG_WELD,
+    OTX_FLAG_FROM,
+    OTX_FLAG_LAYER,
+    OTX_FLAG_TO,
+    OTX_FLAG_RECEIVER,
+    OTX_FLAG_MATCH_SPACE,
+    OTX_FLAG_MATCH_IN,
+    OTX_FLAG_WRAP,
+    OTX_FLAG_TILEABLE,
+    OTX_FLAG_COLORCONFIG,
+    OTX_FLAG_THREADS,
+    OTX_FLAG_MEMORY_LIMIT,
+    OTX_FLAG_REPLACE,
+    OTX_FLAG_DRY_RUN,
+    OTX_FLAG_UPDATE,
+    OTX_FLAG_VERBOSE,
+    OTX_FLAG_QUIET,
+    OTX_FLAG_HELP,
+    OTX_FLAG_VERSION,
+    OTX_FLAG_SHOW,
+    OTX_FLAG_FOLLOW,
+    OTX_FLAG_COUNT};
 
 static const otx_flag_id tiles_flags[] = {
-    OTX_FLAG_OUTPUT,      OTX_FLAG_BOUNDARIES,    OTX_FLAG_CORNERS,
-    OTX_FLAG_TILE_SIZE,   OTX_FLAG_GUTTER,        OTX_FLAG_ORIENTED,
-    OTX_FLAG_SEED,        OTX_FLAG_EDGE_TEMPLATE, OTX_FLAG_CORNER_TEMPLATE,
-    OTX_FLAG_BACKGROUND,  OTX_FLAG_BLEND,         OTX_FLAG_FOR,
-    OTX_FLAG_SCALE,       OTX_FLAG_LEVEL,         OTX_FLAG_TILE_LEVEL,
-    OTX_FLAG_SET,         OTX_FLAG_SCHEME,        OTX_FLAG_BOUNDARY,
-    OTX_FLAG_FVAR,        OTX_FLAG_FROM,          OTX_FLAG_TO,
-    OTX_FLAG_MATCH_SPACE, OTX_FLAG_MATCH_IN,      OTX_FLAG_WRAP,
-    OTX_FLAG_COLORCONFIG, OTX_FLAG_THREADS,       OTX_FLAG_MEMORY_LIMIT,
-    OTX_FLAG_REPLACE,     OTX_FLAG_DRY_RUN,       OTX_FLAG_VERBOSE,
-    OTX_FLAG_QUIET,       OTX_FLAG_HELP,          OTX_FLAG_VERSION,
+    OTX_FLAG_OUTPUT,
+    OTX_FLAG_BOUNDARIES,
+    OTX_FLAG_CORNERS,
+    OTX_FLAG_TILE_SIZE,
+    OTX_FLAG_GUTTER,
+    OTX_FLAG_ORIENTED,
+    OTX_FLAG_SEED,
+    OTX_FLAG_EDGE_TEMPLATE,
+    OTX_FLAG_CORNER_TEMPLATE,
+    OTX_FLAG_BACKGROUND,
+    OTX_FLAG_BLEND,
+    OTX_FLAG_FOR,
+    OTX_FLAG_SCALE,
+    OTX_FLAG_LEVEL,
+    OTX_FLAG_TILE_LEVEL,
+    OTX_FLAG_SET,
+    OTX_FLAG_SCHEME,
+    OTX_FLAG_BOUNDARY,
+    OTX_FLAG_FVAR,
+    OTX_FLAG_WELD,
+    OTX_FLAG_FROM,
+    OTX_FLAG_LAYER,
+    OTX_FLAG_TO,
+    OTX_FLAG_MATCH_SPACE,
+    OTX_FLAG_MATCH_IN,
+    OTX_FLAG_WRAP,
+    OTX_FLAG_COLORCONFIG,
+    OTX_FLAG_THREADS,
+    OTX_FLAG_MEMORY_LIMIT,
+    OTX_FLAG_REPLACE,
+    OTX_FLAG_DRY_RUN,
+    OTX_FLAG_VERBOSE,
+    OTX_FLAG_QUIET,
+    OTX_FLAG_HELP,
+    OTX_FLAG_VERSION,
     OTX_FLAG_COUNT};
 
 static const otx_flag_id render_flags[] = {
@@ -102,14 +159,15 @@ static const otx_flag_id render_flags[] = {
     OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
 
 static const otx_flag_id field_flags[] = {
-    OTX_FLAG_OUTPUT,   OTX_FLAG_CONSTRAINTS,  OTX_FLAG_FOLLOW,
-    OTX_FLAG_SYMMETRY, OTX_FLAG_OCTAVES,      OTX_FLAG_LEVEL,
-    OTX_FLAG_SHOW,     OTX_FLAG_CAMERA,       OTX_FLAG_TURN,
-    OTX_FLAG_SIZE,     OTX_FLAG_SAMPLES,      OTX_FLAG_UNLIT,
-    OTX_FLAG_SCHEME,   OTX_FLAG_BOUNDARY,     OTX_FLAG_FVAR,
-    OTX_FLAG_THREADS,  OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_REPLACE,
-    OTX_FLAG_DRY_RUN,  OTX_FLAG_VERBOSE,      OTX_FLAG_QUIET,
-    OTX_FLAG_HELP,     OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
+    OTX_FLAG_OUTPUT,   OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOLLOW,
+    OTX_FLAG_SYMMETRY, OTX_FLAG_OCTAVES,     OTX_FLAG_LEVEL,
+    OTX_FLAG_SHOW,     OTX_FLAG_CAMERA,      OTX_FLAG_TURN,
+    OTX_FLAG_SIZE,     OTX_FLAG_SAMPLES,     OTX_FLAG_UNLIT,
+    OTX_FLAG_SCHEME,   OTX_FLAG_BOUNDARY,    OTX_FLAG_FVAR,
+    OTX_FLAG_WELD,     OTX_FLAG_THREADS,     OTX_FLAG_MEMORY_LIMIT,
+    OTX_FLAG_REPLACE,  OTX_FLAG_DRY_RUN,     OTX_FLAG_VERBOSE,
+    OTX_FLAG_QUIET,    OTX_FLAG_HELP,        OTX_FLAG_VERSION,
+    OTX_FLAG_COUNT};
 
 static const otx_flag_id regress_flags[] = {
     OTX_FLAG_OUTPUT, OTX_FLAG_UPDATE_CASE, OTX_FLAG_PROGRAM, OTX_FLAG_HISTORY,
@@ -123,11 +181,12 @@ static const otx_flag_id run_flags[] = {
     OTX_FLAG_TASK, OTX_FLAG_HELP, OTX_FLAG_VERSION, OTX_FLAG_COUNT};
 
 static const otx_flag_id info_flags[] = {
-    OTX_FLAG_SCHEME,      OTX_FLAG_BOUNDARY, OTX_FLAG_FVAR,
-    OTX_FLAG_FROM,        OTX_FLAG_TO,       OTX_FLAG_MATCH_SPACE,
-    OTX_FLAG_COLORCONFIG, OTX_FLAG_THREADS,  OTX_FLAG_MEMORY_LIMIT,
-    OTX_FLAG_VERBOSE,     OTX_FLAG_QUIET,    OTX_FLAG_HELP,
-    OTX_FLAG_VERSION,     OTX_FLAG_COUNT};
+    OTX_FLAG_SCHEME,  OTX_FLAG_BOUNDARY,     OTX_FLAG_FVAR,
+    OTX_FLAG_WELD,    OTX_FLAG_FROM,         OTX_FLAG_LAYER,
+    OTX_FLAG_TO,      OTX_FLAG_MATCH_SPACE,  OTX_FLAG_COLORCONFIG,
+    OTX_FLAG_THREADS, OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_VERBOSE,
+    OTX_FLAG_QUIET,   OTX_FLAG_HELP,         OTX_FLAG_VERSION,
+    OTX_FLAG_COUNT};
 
 static const otx_flag_id methods_flags[] = {
     OTX_FLAG_HELP, OTX_FLAG_VERSION, OTX_FLAG_COUNT};
@@ -153,7 +212,7 @@ static const otx_command commands[] = {
      "    --json-report out/shirt.json\n"
      "osdtex map scan.obj bark.png -o out/scan.obj --scheme none\n",
      "DIR/NAME.obj; NAME.mtl and NAME.exr are written beside it", map_flags,
-     otx_map_command_run},
+     otx_map_command_run, true},
     {"tiles", "EXEMPLAR", 1, 1, "make a tiled texture from a picture",
      "Makes square tiles that meet exactly on any quad mesh, at edges, "
      "vertices and\nmip levels: osdtex map CAGE.obj TILES.exr --method tile. "
@@ -162,7 +221,7 @@ static const otx_command commands[] = {
      "osdtex tiles models/exemplars/gravel_tile.png -o gravel_tiles.exr\n"
      "osdtex tiles wood.exr -o wood_tiles.exr --oriented --for shirt.obj \\\n"
      "    --tile-level 2\n",
-     "an .exr", tiles_flags, otx_tiles_command_run},
+     "an .exr", tiles_flags, otx_tiles_command_run, true},
     {"bake", "CAGE.obj EXEMPLAR", 2, 2,
      "texture a cage and bake the result onto its UVs",
      "Textures the cage as `osdtex map` does, but keeps it as it is: writes\n"
@@ -175,7 +234,7 @@ static const otx_command commands[] = {
      "osdtex bake shirt.obj weave.exr -o out/shirt.obj --uvs atlas \\\n"
      "    --texels-per-unit 40 --preview-png\n",
      "DIR/NAME.obj: what is written is called after NAME, and beside it",
-     bake_flags, otx_bake_command_run},
+     bake_flags, otx_bake_command_run, true},
     {"render", "MODEL.obj", 1, 1, "take a picture of a textured model",
      "Ray-traces an OBJ with the textures that its MTL names. PNG is for the "
      "eye\n(sRGB), EXR is scene-linear. --show field and --show singularities "
@@ -187,7 +246,7 @@ static const otx_command commands[] = {
      "osdtex render pebbles.obj -o patches.png --show patches --unlit\n"
      "osdtex render wood.obj -o field.png --show field --constraints "
      "field.csv\n",
-     "a .png or .exr", render_flags, otx_render_command_run},
+     "a .png or .exr", render_flags, otx_render_command_run, true},
     {"field", "CAGE.obj", 1, 1, "show or write a direction field on a cage",
      "Solves for the field of directions that textures follow: the smoothest, "
      "or what\nconstraints and --follow ask for. A picture shows its lines, "
@@ -198,7 +257,7 @@ static const otx_command commands[] = {
      "osdtex field shirt.obj -o field.csv --constraints pull.json --symmetry "
      "4\n",
      "a .png or .exr for a picture, a .csv for the directions", field_flags,
-     otx_field_command_run},
+     otx_field_command_run, true},
     {"regress", "DIR [CASE...]", 1, OTX_FLAG_OPERANDS_MAX,
      "run a table of cases and compare them with their references",
      "Runs the cases of DIR/table.json and holds them against DIR/reference: "
@@ -209,7 +268,7 @@ static const otx_command commands[] = {
      "osdtex regress tests/regress/suite -o /var/tmp/nightly\n"
      "osdtex regress tests/regress/suite -o /var/tmp/nightly --update all\n",
      "a folder, which is made where it is not there", regress_flags,
-     otx_regress_command_run},
+     otx_regress_command_run, false},
     {"plan", "JOB.json", 1, 1, "write a job for a farm",
      "A job is a list of tasks, each an `osdtex map` or `osdtex bake`. Writes "
      "it as\nmake, Slurm, OpenCue or Deadline take it, and prints how to hand "
@@ -217,11 +276,12 @@ static const otx_command commands[] = {
      "osdtex plan shirts.json --engine slurm -o farm/\n"
      "osdtex plan shirts.json -o farm/ && make -k -j 8 -f farm/Makefile\n",
      "a folder, which is made where it is not there", plan_flags,
-     otx_plan_command_run},
+     otx_plan_command_run, false},
     {"run", "JOB.json", 1, 1, "run a task of a job",
      "Runs one task, unless its outputs were made by this version from the "
      "same\ninputs and options. Paths in the job are relative to its folder.",
-     "osdtex run shirts.json --task 3\n", NULL, run_flags, otx_run_command_run},
+     "osdtex run shirts.json --task 3\n", NULL, run_flags, otx_run_command_run,
+     false},
     {"info", "[FILE]", 0, 1,
      "say what a cage, a picture or a colour configuration is",
      "Of an OBJ: faces, tags, components, boundary, size. Of a picture: size, "
@@ -232,14 +292,14 @@ static const otx_command commands[] = {
      "osdtex info models/exemplars/pebbles_tile.png\n"
      "osdtex info studio.ocio\n"
      "osdtex info\n",
-     NULL, info_flags, otx_info_command_run},
+     NULL, info_flags, otx_info_command_run, true},
     {"methods", "[NAME]", 0, 1, "list the methods, or the settings of one",
      "Settings are given to `osdtex map` with --set KEY=VALUE.",
      "osdtex methods\n"
      "osdtex methods hierarchical\n",
-     NULL, methods_flags, otx_methods_command_run},
+     NULL, methods_flags, otx_methods_command_run, false},
     {"help", "[COMMAND]", 0, 1, "print help on a command", "",
-     "osdtex help map\n", NULL, help_flags, otx_help_command_run},
+     "osdtex help map\n", NULL, help_flags, otx_help_command_run, false},
 };
 
 const otx_command *

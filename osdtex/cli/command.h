@@ -30,6 +30,7 @@ typedef struct otx_command
     const char *output;       /* help on --output; NULL where there is none */
     const otx_flag_id *flags; /* ends with OTX_FLAG_COUNT */
     int (*run)(const otx_flag_values *values);
+    bool reads_pipes; /* inputs that are pipes are read beforehand */
 } otx_command;
 
 /* NULL behind the end. */

@@ -1,6 +1,6 @@
 /* flag.c -- the table of flags, and getopt_long over it. */
 #include "cli/flag.h"
-
+#include "cli/value.h"
 #include "word/near.h"
 
 #include <getopt.h>
@@ -154,6 +154,17 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_UDIM] =
         {"udim", 0, OTX_FLAG_GROUP_BAKE, "N",
          "bake this tile only, 1001 and on, beside those of other runs"},
+    [OTX_FLAG_NORMALS] =
+        {"normals", 0, OTX_FLAG_GROUP_MAIN, NULL,
+         "also write normals (vn): those of the limit surface, one for each "
+         "side of an infinitely sharp crease"},
+    [OTX_FLAG_UNITS] =
+        {"units", 0, OTX_FLAG_GROUP_BAKE, "m|cm|mm|km|in|ft|METRES",
+         "what a scene unit is, for NAME.usda (default: m with --for blender "
+         "or houdini, else cm)"},
+    [OTX_FLAG_UP] =
+        {"up", 0, OTX_FLAG_GROUP_BAKE, "y|z",
+         "which axis points up, for NAME.usda; nothing is turned (default y)"},
     [OTX_FLAG_PREVIEW] =
         {"preview", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "also render the result to a .png or .exr"},
@@ -173,6 +184,16 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "none|cornersOnly|cornersPlus1|cornersPlus2|boundaries|all",
          "how the cage's own UVs are smoothed (default: the file's tag, else "
          "cornersPlus1)"},
+    [OTX_FLAG_WELD] =
+        {"weld", 0, OTX_FLAG_GROUP_CAGE, "[DIST]",
+         "let vertices that lie within this distance of each other, in scene "
+         "units, be one (without a number: a millionth of the bounding box's "
+         "diagonal)"},
+    [OTX_FLAG_LAYER] =
+        {"layer", 0, OTX_FLAG_GROUP_COLOUR, "NAME",
+         "layer or part of an EXR that is the picture (default: plain R, G, B "
+         "of any part, else what is called beauty, rgba, combined or the "
+         "like)"},
     [OTX_FLAG_FROM] =
         {"from", 0, OTX_FLAG_GROUP_COLOUR, "SPACE",
          "colour space of the exemplar (default: what the file says, else "
@@ -310,6 +331,14 @@ enum
     ID_BASE = 256
 };
 
+/* Arguments in brackets may be left out. */
+static bool
+is_optional(const otx_flag *f)
+{
+    return f->argument && f->argument[0] == '[' &&
+           f->argument[strlen(f->argument) - 1] == ']';
+}
+
 static getopt_table
 make_table(const otx_flag_id *ids)
 {
@@ -323,8 +352,11 @@ make_table(const otx_flag_id *ids)
         const otx_flag *f = &flags[*ids];
 
         table.longs[count++] = (struct option){
-            f->name, f->argument ? required_argument : no_argument, NULL,
-            ID_BASE + (int)*ids};
+            f->name,
+            is_optional(f) ? optional_argument
+            : f->argument  ? required_argument
+                           : no_argument,
+            NULL, ID_BASE + (int)*ids};
         if (f->letter)
             *s++ = f->letter;
         if (f->letter && f->argument)
@@ -447,6 +479,16 @@ take_operands(int argc, char **argv, otx_flag_values *out)
     return true;
 }
 
+/* getopt takes an argument that may be left out behind a = only; a number that
+ * stands by itself is one, too. */
+static bool
+is_number(const char *word)
+{
+    double value;
+
+    return word && otx_value_real(word, &value);
+}
+
 static int
 id_of_letter(int letter)
 {
@@ -496,6 +538,8 @@ otx_flag_parse(
         }
         id = c >= ID_BASE ? c - ID_BASE : id_of_letter(c);
         out->text[id] = optarg ? optarg : "";
+        if (!optarg && is_optional(&flags[id]) && is_number(argv[optind]))
+            out->text[id] = argv[optind++];
         if (id == OTX_FLAG_SET && !take_setting(optarg, out))
             return false;
         if (id == OTX_FLAG_EDGE_TEMPLATE && !take_edge(optarg, out))

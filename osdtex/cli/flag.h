@@ -47,11 +47,16 @@ typedef enum otx_flag_id
     OTX_FLAG_EXTRA,
     OTX_FLAG_PREVIEW_PNG,
     OTX_FLAG_UDIM,
+    OTX_FLAG_NORMALS,
+    OTX_FLAG_UNITS,
+    OTX_FLAG_UP,
     OTX_FLAG_PREVIEW,
     OTX_FLAG_JSON_REPORT,
     OTX_FLAG_SCHEME,
     OTX_FLAG_BOUNDARY,
     OTX_FLAG_FVAR,
+    OTX_FLAG_WELD,
+    OTX_FLAG_LAYER,
     OTX_FLAG_FROM,
     OTX_FLAG_TO,
     OTX_FLAG_MATCH_SPACE,
@@ -109,12 +114,21 @@ typedef struct otx_flag
 enum
 {
     OTX_FLAG_SETTINGS_MAX = 64,
+    OTX_FLAG_SPOOLS_MAX = 8,
     OTX_FLAG_OPERANDS_MAX = 8,
     OTX_FLAG_EDGES_MAX = 8,
     OTX_FLAG_ALSO_MAX = 8
 };
 
 /* A command line, taken apart. Strings point into argv. */
+/* An input that is a pipe: see cli/spool.h. */
+typedef struct otx_flag_spool
+{
+    const char *name; /* as given */
+    char text[256];   /* what is given in its place */
+    size_t prefix;    /* bytes of both before the file's name */
+} otx_flag_spool;
+
 typedef struct otx_flag_values
 {
     const char *text[OTX_FLAG_COUNT]; /* NULL: not given; "" for switches */
@@ -128,6 +142,8 @@ typedef struct otx_flag_values
     int operand_count;
     const otx_flag_id *ids; /* the flags of the command */
     const char *job; /* file of the job that this is a task of; NULL none */
+    otx_flag_spool spools[OTX_FLAG_SPOOLS_MAX];
+    int spool_count;
 } otx_flag_values;
 
 const otx_flag *otx_flag_at(otx_flag_id id);

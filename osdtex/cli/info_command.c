@@ -1,6 +1,7 @@
 /* info_command.c -- osdtex info: what a file is, as osdtex sees it. */
 #include "cli/inputs.h"
 #include "cli/session.h"
+#include "cli/spool.h"
 #include "cli/value.h"
 
 #include <math.h>
@@ -8,11 +9,11 @@
 #include <string.h>
 
 static void
-print_cage(const osdtex_cage_info *c)
+print_cage(const char *name, const osdtex_cage_info *c)
 {
     const int others = c->face_count - c->triangle_count - c->quad_count;
 
-    printf("%s: cage, hash %s\n", c->path, c->hash ? c->hash : "none");
+    printf("%s: cage, hash %s\n", name, c->hash ? c->hash : "none");
     printf(
         "  faces       %d (%d quads, %d triangles, %d others), %d vertices, "
         "%d edges\n",
@@ -51,14 +52,14 @@ print_cage(const osdtex_cage_info *c)
 }
 
 static void
-print_exemplar(const osdtex_exemplar_info *e)
+print_exemplar(const char *name, const osdtex_exemplar_info *e)
 {
     /* A profile or the like stands there in words. */
     const char *quote = strchr(e->source_space, '\'') ? "" : "'";
     static const char *const tiles[2][2] = {
         {"in no direction", "bottom to top"}, {"left to right", "both ways"}};
 
-    printf("%s: picture, hash %s\n", e->path, e->hash ? e->hash : "none");
+    printf("%s: picture, hash %s\n", name, e->hash ? e->hash : "none");
     printf(
         "  size        %d x %d, %d channels, %s\n", e->width, e->height,
         e->channels, e->type);
@@ -91,7 +92,7 @@ print_structure(const osdtex_exemplar_structure *s)
 
 static osdtex_status
 inspect_cage(
-    osdtex_context *context, const char *path,
+    osdtex_context *context, const char *path, const char *name,
     const osdtex_cage_options *options)
 {
     osdtex_cage *cage;
@@ -99,14 +100,14 @@ inspect_cage(
         osdtex_cage_read(context, path, options, &cage);
 
     if (status == OSDTEX_OK)
-        print_cage(osdtex_cage_describe(cage));
+        print_cage(name, osdtex_cage_describe(cage));
     osdtex_cage_destroy(cage);
     return status;
 }
 
 static osdtex_status
 inspect_exemplar(
-    osdtex_context *context, const char *path,
+    osdtex_context *context, const char *path, const char *name,
     const osdtex_exemplar_options *options)
 {
     osdtex_exemplar_structure structure;
@@ -115,7 +116,7 @@ inspect_exemplar(
         osdtex_exemplar_read(context, path, options, &exemplar);
 
     if (status == OSDTEX_OK)
-        print_exemplar(osdtex_exemplar_describe(exemplar));
+        print_exemplar(name, osdtex_exemplar_describe(exemplar));
     if (status == OSDTEX_OK)
         status = osdtex_exemplar_analyse(context, exemplar, &structure);
     if (status == OSDTEX_OK)
@@ -201,6 +202,7 @@ int
 otx_info_command_run(const otx_flag_values *values)
 {
     const char *path = values->operands[0];
+    const char *name = otx_spool_name(values, path);
     osdtex_cage_options cage_options;
     osdtex_exemplar_options exemplar_options;
     otx_session session;
@@ -213,8 +215,9 @@ otx_info_command_run(const otx_flag_values *values)
         return run_on_configuration(values);
     if (!otx_session_begin(&session, values))
         return session.exit_code;
-    status = otx_inputs_is_picture(path) || otx_inputs_is_binary(path)
-                 ? inspect_exemplar(session.context, path, &exemplar_options)
-                 : inspect_cage(session.context, path, &cage_options);
+    status =
+        otx_inputs_is_picture(path) || otx_inputs_is_binary(path)
+            ? inspect_exemplar(session.context, path, name, &exemplar_options)
+            : inspect_cage(session.context, path, name, &cage_options);
     return otx_session_end(&session, status);
 }

@@ -62,11 +62,28 @@ choose(
     return false;
 }
 
+/* "" is the flag without a number. */
+static bool
+take_weld(const otx_flag_values *values, double *out)
+{
+    const char *text = values->text[OTX_FLAG_WELD];
+
+    if (!text)
+        return true;
+    *out = -1.0;
+    if (!*text || (otx_value_real(text, out) && *out > 0.0))
+        return true;
+    otx_session_refuse(
+        "--weld takes a distance above 0 in scene units, not '%s'", text);
+    return false;
+}
+
 bool
 otx_inputs_cage(const otx_flag_values *values, osdtex_cage_options *out)
 {
     *out = osdtex_cage_options_default();
-    return choose(values, OTX_FLAG_SCHEME, schemes, 4, &out->scheme) &&
+    return take_weld(values, &out->weld) &&
+           choose(values, OTX_FLAG_SCHEME, schemes, 4, &out->scheme) &&
            choose(values, OTX_FLAG_BOUNDARY, boundaries, 3, &out->boundary) &&
            choose(values, OTX_FLAG_FVAR, fvars, 6, &out->fvar);
 }
@@ -78,6 +95,7 @@ otx_inputs_exemplar(const otx_flag_values *values, osdtex_exemplar_options *out)
     out->from = values->text[OTX_FLAG_FROM];
     out->to = values->text[OTX_FLAG_TO];
     out->match_space = values->text[OTX_FLAG_MATCH_SPACE];
+    out->layer = values->text[OTX_FLAG_LAYER];
     return choose(values, OTX_FLAG_MATCH_IN, embeddings, 4, &out->embedding) &&
            choose(values, OTX_FLAG_WRAP, wraps, 3, &out->wrap) &&
            choose(values, OTX_FLAG_TILEABLE, tileables, 3, &out->tileable) &&

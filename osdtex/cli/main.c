@@ -1,5 +1,6 @@
 /* main.c -- finds the sub-command and runs it. */
 #include "cli/session.h"
+#include "cli/spool.h"
 #include "cli/usage.h"
 
 #include <stdio.h>
@@ -34,6 +35,8 @@ run(const otx_command *command, int argc, char **argv)
         return otx_session_refuse(
             "osdtex %s takes %s; see osdtex %s --help", command->name,
             command->operands, command->name);
+    if (command->reads_pipes && !otx_spool_inputs(&values))
+        return OTX_EXIT_IO;
     return command->run(&values);
 }
 

@@ -90,6 +90,7 @@ write_models(otx_session *session, const job *j, const char *const *comments)
     osdtex_write_options options = osdtex_write_options_default();
     osdtex_bake_options bake = r->bake_options;
 
+    options.normals = r->values->text[OTX_FLAG_NORMALS] != NULL;
     options.comments = bake.comments = comments;
     options.comment_count = bake.comment_count = 1;
     if (!r->bakes)

@@ -1,5 +1,6 @@
 /* session.c -- findings, progress, signals. */
 #include "cli/session.h"
+#include "cli/spool.h"
 #include "cli/value.h"
 
 #include <signal.h>
@@ -164,11 +165,13 @@ otx_session_lap(otx_session *session, const char *what)
 
 /* "shirt.obj:4711: ", "shirt.obj: " or "". */
 static void
-put_place(const osdtex_diagnostic *d)
+put_place(const otx_session *session, const osdtex_diagnostic *d)
 {
+    const char *name = otx_spool_name(session->values, d->file);
+
     if (!d->file)
         return;
-    put_plain(d->file, strlen(d->file));
+    put_plain(name, strlen(name));
     if (d->line > 0)
         fprintf(stderr, ":%lld", (long long)d->line);
     fputs(": ", stderr);
@@ -190,7 +193,7 @@ put_finding(void *user, const osdtex_diagnostic *d)
         fputs("warning: ", stderr);
     else
         fprintf(stderr, "%s: ", d->stage);
-    put_place(d);
+    put_place(session, d);
     put_sentence(d);
     fputc('\n', stderr);
 }
@@ -209,7 +212,7 @@ put_repeats(otx_session *session)
             (session->quiet && d.severity != OSDTEX_SEVERITY_ERROR))
             continue;
         fputs("osdtex: ", stderr);
-        put_place(&d);
+        put_place(session, &d);
         fprintf(stderr, "%lld findings like this: ", (long long)d.count);
         put_sentence(&d);
         fputc('\n', stderr);
@@ -312,6 +315,7 @@ otx_session_begin(otx_session *session, const otx_flag_values *values)
     osdtex_status status;
 
     *session = (otx_session){
+        .values = values,
         .quiet = values->text[OTX_FLAG_QUIET] != NULL,
         .verbose = values->text[OTX_FLAG_VERBOSE] != NULL,
         .is_terminal = isatty(STDERR_FILENO) != 0,

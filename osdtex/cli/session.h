@@ -8,6 +8,7 @@
 typedef struct otx_session
 {
     osdtex_context *context;
+    const otx_flag_values *values;
     bool quiet, verbose;
     bool is_terminal;  /* stderr is */
     bool bar_is_shown; /* and must be wiped before a line */

@@ -91,18 +91,17 @@ set_names(const otx_cage *cage, otx_obj *out)
     out->face_smooth = cage->face_smooth;
 }
 
-static void
-set_tags(const otx_layout *layout, otx_obj *out)
+otx_status
+otx_cage_model_tags(
+    otx_run *run, const otx_cage *cage, otx_fvar fvar, otx_obj *out)
 {
-    const otx_cage *cage = layout->surface->cage;
-
     out->creases = (otx_obj_creases){
         cage->crease_count, cage->crease_verts, cage->crease_sharpness, NULL};
     out->corners = (otx_obj_creases){
         cage->corner_tag_count, cage->corner_tag_verts,
         cage->corner_tag_sharpness, NULL};
     out->boundary = (otx_obj_rule){boundary_tag(cage->boundary), 0};
-    out->fvar = (otx_obj_rule){(int32_t)otx_cage_model_fvar(layout), 0};
+    out->fvar = (otx_obj_rule){(int32_t)fvar, 0};
     out->crease_method = (otx_obj_rule){
         cage->crease_chaikin ? OTX_OBJ_CREASE_CHAIKIN : OTX_OBJ_CREASE_NORMAL,
         0};
@@ -110,6 +109,7 @@ set_tags(const otx_layout *layout, otx_obj *out)
         cage->triangles_smooth ? OTX_OBJ_TRIANGLES_SMOOTH
                                : OTX_OBJ_TRIANGLES_CATMARK,
         0};
+    return list_holes(run, cage, out);
 }
 
 otx_status
@@ -141,8 +141,7 @@ otx_cage_model_obj(
     };
     memcpy(out->origin, cage->origin, sizeof out->origin);
     set_names(cage, out);
-    set_tags(layout, out);
-    OTX_TRY(list_holes(run, cage, out));
+    OTX_TRY(otx_cage_model_tags(run, cage, otx_cage_model_fvar(layout), out));
     return list_materials(run, cage, fallback, out);
 }
 

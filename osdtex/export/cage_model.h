@@ -24,6 +24,11 @@ otx_status otx_cage_model_obj(
     otx_run *run, const otx_layout *layout, const char *path,
     const char *library, const char *fallback, otx_obj *out);
 
+/* Creases, corners, holes and rules of a cage whose texture coordinates are
+ * interpolated by `fvar`; what must be made is made in run->scratch. */
+otx_status otx_cage_model_tags(
+    otx_run *run, const otx_cage *cage, otx_fvar fvar, otx_obj *out);
+
 /* The same for a USD file, without the texture and the comments. */
 void
 otx_cage_model_usda(const otx_layout *layout, const char *name, otx_usda *out);

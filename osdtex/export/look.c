@@ -1,6 +1,8 @@
 /* look.c -- textures tile by tile, then the texts that name them. */
 #include "export/look.h"
 
+#include "export/corner_normals.h"
+
 #include "export/cage_model.h"
 #include "export/names.h"
 #include "export/texture_file.h"
@@ -389,12 +391,32 @@ write_cage(const writer *w)
     OTX_TRY(list_comments(w, &how.comments, &how.comment_count));
     OTX_TRY(otx_cage_model_obj(
         w->run, w->layout, path, library, w->names.stem, &obj));
+    if (w->options->normals)
+    {
+        otx_corner_normals normals;
+
+        OTX_TRY(
+            otx_corner_normals_of_cage(w->run, w->layout->surface, &normals));
+        obj.normal_count = normals.count;
+        obj.normals = normals.normals;
+        obj.face_normals = normals.indices;
+    }
     OTX_TRY(write_mtl(w, "_cage.mtl", color_name(w), &obj.materials));
     if (w->options->colour)
         OTX_TRY(write_mtl(
             w, "_preview.mtl", texture_name(w, ".png"), &obj.materials));
     OTX_TRY(otx_atomic_file_add(w->run, w->set, path, &temporary));
     return otx_obj_write(w->run, &obj, temporary, &how);
+}
+
+/* Metres to a scene unit where nobody says: of programs that work in metres
+ * one, else what USD takes a stage to be that does not say, which is Maya's. */
+static double
+unit_of(otx_receiver receiver)
+{
+    return receiver == OTX_RECEIVER_BLENDER || receiver == OTX_RECEIVER_HOUDINI
+               ? 1.0
+               : 0.01;
 }
 
 static otx_status
@@ -409,6 +431,21 @@ write_usda(const writer *w)
     otx_cage_model_usda(w->layout, w->names.stem, &usda);
     usda.texture = color_name(w);
     usda.interop_id = otx_texture_file_interop_id(w->exemplars);
+    /* A subdivided mesh has those of its limit in USD. */
+    if (w->options->normals &&
+        w->layout->surface->cage->scheme == OTX_SCHEME_NONE)
+    {
+        otx_corner_normals normals;
+
+        OTX_TRY(
+            otx_corner_normals_of_cage(w->run, w->layout->surface, &normals));
+        usda.normals = normals.normals;
+        usda.face_normals = normals.indices;
+    }
+    usda.z_up = w->options->z_up;
+    usda.meters_per_unit = w->options->meters_per_unit > 0.0
+                               ? w->options->meters_per_unit
+                               : unit_of(w->exemplars->receiver);
     if (!usda.texture)
         return otx_fail_memory(w->run, STAGE);
     OTX_TRY(list_comments(w, &usda.comments, &usda.comment_count));

@@ -23,6 +23,10 @@ typedef struct otx_look_options
     const otx_colour *colour;          /* for the preview; NULL: no preview */
     int32_t udim;                      /* bake this tile only; 0 all */
     const char *texture_comment;       /* for the textures; NULL none */
+    double meters_per_unit;            /* of NAME.usda; 0: by the receiver */
+    bool z_up;                         /* of NAME.usda */
+    bool normals; /* of the limit surface in NAME_cage.obj, and of a plain mesh
+                   * in NAME.usda; those of the mesh are mesh->normals */
     /* What is written of the refined mesh, together with the rest; its path and
      * set are given here. NULL: nothing. */
     const otx_model_options *mesh;

@@ -1,6 +1,8 @@
 /* model.c -- from a mapping to what the writers of file/ take. */
 #include "export/model.h"
 
+#include "export/cage_model.h"
+#include "export/corner_normals.h"
 #include "export/names.h"
 #include "export/texture_file.h"
 #include "export/uv_pool.h"
@@ -19,6 +21,7 @@ typedef struct leaf_faces
     int32_t count, corner_count;
     int32_t *first;   /* [count + 1] */
     int32_t *verts;   /* [corner_count] */
+    int32_t *corners; /* [corner_count], of the leaf level */
     float *uvs;       /* [corner_count * 2] */
     int32_t *parents; /* [count], cage face */
     uint8_t *sources; /* [count], exemplar */
@@ -40,15 +43,22 @@ allocate_faces(otx_run *run, const otx_level *leaf, leaf_faces *out)
     *out = (leaf_faces){
         .first = OTX_NEW(run->scratch, int32_t, (size_t)leaf->face_count + 1),
         .verts = OTX_NEW(run->scratch, int32_t, corners),
+        .corners = OTX_NEW(run->scratch, int32_t, corners),
         .uvs = OTX_NEW(run->scratch, float, corners * 2),
         .parents = OTX_NEW(run->scratch, int32_t, leaf->face_count),
         .sources = OTX_NEW(run->scratch, uint8_t, leaf->face_count),
     };
-    if (!out->first || !out->verts || !out->uvs || !out->parents ||
-        !out->sources)
+    if (!out->first || !out->verts || !out->corners || !out->uvs ||
+        !out->parents || !out->sources)
         return otx_fail_memory(run, STAGE);
     out->first[0] = 0;
     return OSDTEX_OK;
+}
+
+static bool
+is_plain(const otx_surface *surface)
+{
+    return surface->cage->scheme == OTX_SCHEME_NONE;
 }
 
 /* A plain mesh may have been severed where it is no manifold: it is written
@@ -56,12 +66,20 @@ allocate_faces(otx_run *run, const otx_level *leaf, leaf_faces *out)
 static const int32_t *
 written_verts(const otx_surface *surface)
 {
-    return surface->cage->scheme == OTX_SCHEME_NONE
-               ? surface->cage->face_verts
-               : otx_surface_leaf(surface)->face_verts;
+    return is_plain(surface) ? surface->cage->face_verts
+                             : otx_surface_leaf(surface)->face_verts;
 }
 
-/* Leaf faces in their order, which is that of the cage's; without holes. */
+static bool
+is_hole(const otx_surface *surface, int32_t face)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+
+    return leaf->face_hole && leaf->face_hole[face];
+}
+
+/* Leaf faces in their order, which is that of the cage's. Holes are left out,
+ * but of a plain mesh, which stays the mesh that it is. */
 static otx_status
 gather_faces(otx_run *run, const otx_mapping *mapping, leaf_faces *out)
 {
@@ -75,9 +93,11 @@ gather_faces(otx_run *run, const otx_mapping *mapping, leaf_faces *out)
         const size_t size = (size_t)otx_level_face_size(leaf, f);
         const size_t to = (size_t)out->corner_count;
 
-        if (leaf->face_hole && leaf->face_hole[f])
+        if (is_hole(mapping->surface, f) && !is_plain(mapping->surface))
             continue;
         memcpy(out->verts + to, verts + from, size * sizeof *out->verts);
+        for (size_t k = 0; k < size; ++k)
+            out->corners[to + k] = (int32_t)(from + k);
         memcpy(
             out->uvs + 2 * to, mapping->uvs + 2 * from,
             2 * size * sizeof *out->uvs);
@@ -86,6 +106,44 @@ gather_faces(otx_run *run, const otx_mapping *mapping, leaf_faces *out)
         out->parents[out->count++] = leaf->face_cage[f];
         out->first[out->count] = out->corner_count;
     }
+    return OSDTEX_OK;
+}
+
+/* A pool of the UVs of faces that show a texture; holes that are written have
+ * none.
+ *
+ *   indices  into the pool, -1 at corners of holes */
+static otx_status
+pool_uvs(
+    otx_run *run, const otx_surface *surface, const leaf_faces *faces,
+    otx_uv_pool *pool, const int32_t **indices)
+{
+    int32_t *verts = OTX_NEW(run->scratch, int32_t, faces->corner_count);
+    float *uvs = OTX_NEW(run->scratch, float, 2 * (size_t)faces->corner_count);
+    int32_t *spread = OTX_NEW(run->scratch, int32_t, faces->corner_count);
+    int32_t count = 0;
+
+    if (!verts || !uvs || !spread)
+        return otx_fail_memory(run, STAGE);
+    for (int32_t f = 0; f < faces->count; ++f)
+    {
+        const bool hole = is_plain(surface) && is_hole(surface, f);
+
+        for (int32_t c = faces->first[f]; c < faces->first[f + 1]; ++c)
+        {
+            spread[c] = hole ? -1 : count;
+            if (hole)
+                continue;
+            verts[count] = faces->verts[c];
+            memcpy(
+                uvs + 2 * (size_t)count++, faces->uvs + 2 * (size_t)c,
+                2 * sizeof *uvs);
+        }
+    }
+    OTX_TRY(otx_uv_pool_build(run, run->scratch, count, verts, uvs, pool));
+    for (int32_t c = 0; c < faces->corner_count; ++c)
+        spread[c] = spread[c] < 0 ? -1 : pool->indices[spread[c]];
+    *indices = spread;
     return OSDTEX_OK;
 }
 
@@ -256,7 +314,7 @@ set_points(const otx_surface *surface, otx_obj *out)
     memcpy(out->origin, cage->origin, sizeof out->origin);
     out->vert_count = otx_surface_leaf(surface)->vert_count;
     out->points = surface->points;
-    if (cage->scheme != OTX_SCHEME_NONE)
+    if (!is_plain(surface))
         return;
     out->vert_count = cage->vert_count;
     out->points = cage->points;
@@ -265,22 +323,55 @@ set_points(const otx_surface *surface, otx_obj *out)
     out->point_line_bytes = cage->point_line_bytes;
 }
 
+/* A plain mesh may be a cage to others: what it says about its subdivision
+ * stays with it. */
+static bool
+has_tags(const otx_surface *surface)
+{
+    const otx_cage *cage = surface->cage;
+    bool holes = false;
+
+    for (int32_t f = 0; cage->face_hole && f < cage->face_count; ++f)
+        holes |= cage->face_hole[f] != 0;
+    return is_plain(surface) &&
+           (holes || cage->crease_count > 0 || cage->corner_tag_count > 0);
+}
+
+static otx_status
+add_normals(
+    otx_run *run, const otx_surface *surface, const leaf_faces *faces,
+    otx_obj *obj)
+{
+    int32_t *indices = OTX_NEW(run->scratch, int32_t, faces->corner_count);
+    otx_corner_normals all;
+
+    OTX_TRY(otx_corner_normals_build(run, surface, &all));
+    if (!indices)
+        return otx_fail_memory(run, STAGE);
+    for (int32_t c = 0; c < faces->corner_count; ++c)
+        indices[c] = all.indices[faces->corners[c]];
+    obj->normal_count = all.count;
+    obj->normals = all.normals;
+    obj->face_normals = indices;
+    return OSDTEX_OK;
+}
+
 static otx_status
 describe_obj(
     otx_run *run, const otx_mapping *mapping, const otx_names *names,
-    otx_obj *out, material_list *materials)
+    bool normals, otx_obj *out, material_list *materials)
 {
     const otx_cage *cage = mapping->surface->cage;
     const char **library = OTX_NEW(run->scratch, const char *, 1);
     leaf_faces faces;
     otx_uv_pool pool;
+    const int32_t *face_uvs = NULL;
 
     if (!library)
         return otx_fail_memory(run, STAGE);
     *library = names->mtl_name;
     OTX_TRY(gather_faces(run, mapping, &faces));
-    OTX_TRY(otx_uv_pool_build(
-        run, run->scratch, faces.corner_count, faces.verts, faces.uvs, &pool));
+    OTX_TRY(pool_uvs(run, mapping->surface, &faces, &pool, &face_uvs));
     *out = (otx_obj){
         .path = names->obj,
         .uv_count = pool.count,
@@ -289,7 +380,7 @@ describe_obj(
         .uvs = pool.uvs,
         .face_first = faces.first,
         .face_verts = faces.verts,
-        .face_uvs = pool.indices,
+        .face_uvs = face_uvs,
         .libraries = {1, library},
         .boundary = OTX_OBJ_NO_RULE,
         .fvar = OTX_OBJ_NO_RULE,
@@ -297,6 +388,10 @@ describe_obj(
         .triangles = OTX_OBJ_NO_RULE,
     };
     set_points(mapping->surface, out);
+    if (normals)
+        OTX_TRY(add_normals(run, mapping->surface, &faces, out));
+    if (has_tags(mapping->surface))
+        OTX_TRY(otx_cage_model_tags(run, cage, cage->fvar, out));
     OTX_TRY(carry_names(
         run, &faces, cage->face_group, cage->group_count, cage->group_names,
         &out->groups, &out->face_group));
@@ -321,6 +416,7 @@ write_obj(
         .name = names->obj,
         .comments = options->comments,
         .comment_count = options->comment_count,
+        .tags = true,
     };
     const char *temporary;
 
@@ -388,7 +484,8 @@ otx_model_write(
     OTX_TRY(otx_names_number(
         run, run->arena, otx_source_count(mapping),
         otx_texture_file_extension(exemplars), &names));
-    status = describe_obj(run, mapping, &names, &obj, &materials);
+    status =
+        describe_obj(run, mapping, &names, options->normals, &obj, &materials);
     if (status == OSDTEX_OK)
         status = write_files(run, &names, &obj, &materials, exemplars, options);
     otx_arena_release(run->scratch, mark);

@@ -119,5 +119,8 @@ otx_status otx_exr_end(otx_exr_writer *writer);
 
 /* Reads an EXR into `out`; called by otx_picture_read. */
 otx_status otx_exr_read(otx_run *run, const char *path, otx_picture *out);
+/* The same of a layer or part by name; NULL: see exr_layer.h. */
+otx_status otx_exr_read_layer(
+    otx_run *run, const char *path, const char *layer, otx_picture *out);
 
 #endif

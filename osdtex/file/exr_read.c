@@ -6,6 +6,7 @@
  * be checked against the chunk that was really read. */
 #include "file/exr.h"
 
+#include "bridge/openexr.h"
 #include "file/exr_layer.h"
 
 /* The table of the C++ library is not linked. */
@@ -97,22 +98,21 @@ reader_open(reader *r)
     return code == EXR_ERR_SUCCESS ? OSDTEX_OK : reader_failed(r, code);
 }
 
+/* Whether the core cannot read the pixels, and the C++ library has to. */
+static bool
+needs_library(const reader *r)
+{
+    return r->layer.is_chroma || r->compression == EXR_COMPRESSION_DWAA ||
+           r->compression == EXR_COMPRESSION_DWAB;
+}
+
 static otx_status
-check_compression(reader *r)
+read_compression(reader *r)
 {
     const exr_result_t code =
         exr_get_compression(r->file, r->layer.part, &r->compression);
 
-    if (code != EXR_ERR_SUCCESS)
-        return reader_failed(r, code);
-    if (r->compression == EXR_COMPRESSION_DWAA ||
-        r->compression == EXR_COMPRESSION_DWAB)
-        return otx_fail(
-            r->run, OSDTEX_ERROR_SUPPORT, "picture", otx_where_file(r->path),
-            "the EXR is compressed with %s, which is not read; convert it "
-            "with: oiiotool IN.exr --compression zip -o OUT.exr",
-            r->compression == EXR_COMPRESSION_DWAA ? "DWAA" : "DWAB");
-    return OSDTEX_OK;
+    return code == EXR_ERR_SUCCESS ? OSDTEX_OK : reader_failed(r, code);
 }
 
 /* ---- header ------------------------------------------------------------- */
@@ -426,8 +426,54 @@ read_tiles(reader *r)
     return OSDTEX_OK;
 }
 
+/* A row of the data window, as far as it is visible. */
+static void
+keep_row(void *user, int32_t y, const float *row, int32_t x_min, int32_t width)
+{
+    const reader *r = user;
+    const otx_picture_window visible = visible_window(r->out);
+    const int32_t channels = r->out->image.channels;
+    float *to = otx_picture_row(r->out, y - visible.y_min);
+
+    (void)width;
+    for (int32_t x = visible.x_min; x <= visible.x_max; ++x)
+        memcpy(
+            to + (size_t)(x - visible.x_min) * (size_t)channels,
+            row + 4 * (size_t)(x - x_min), (size_t)channels * sizeof *to);
+}
+
+/* What the core does not decode. The windows have been checked by it. */
+static otx_status
+read_by_library(reader *r)
+{
+    const otx_picture_window visible = visible_window(r->out);
+    const exr_attr_chlist_t *list = NULL;
+    otx_openexr_picture picture = {
+        .path = r->path,
+        .part = r->layer.part,
+        .is_chroma = r->layer.is_chroma,
+        .y_min = visible.y_min,
+        .y_max = visible.y_max};
+    char reason[OTX_OPENEXR_REASON_BYTES];
+    otx_status status;
+
+    exr_get_channels(r->file, r->layer.part, &list);
+    for (int c = 0; c < 4; ++c)
+        if (r->layer.channels[c] != OTX_EXR_NO_CHANNEL)
+            picture.channels[c] = list->entries[r->layer.channels[c]].name.str;
+    status = otx_openexr_read(&picture, keep_row, r, reason);
+    if (status == OSDTEX_OK)
+        return status;
+    if (status == OSDTEX_ERROR_MEMORY)
+        return reader_failed(r, EXR_ERR_OUT_OF_MEMORY);
+    return otx_fail(
+        r->run, status, "picture", otx_where_file(r->path),
+        "the EXR is damaged or cut short (%s); write it again", reason);
+}
+
 otx_status
-otx_exr_read(otx_run *run, const char *path, otx_picture *out)
+otx_exr_read_layer(
+    otx_run *run, const char *path, const char *layer, otx_picture *out)
 {
     reader *r = OTX_ZNEW(run->scratch, reader, 1);
     exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
@@ -438,10 +484,18 @@ otx_exr_read(otx_run *run, const char *path, otx_picture *out)
     r->path = path;
     r->out = out;
     OTX_TRY(reader_open(r));
-    OTX_TRY(otx_exr_layer_choose(run, path, r->file, &r->layer));
-    OTX_TRY(check_compression(r));
+    OTX_TRY(otx_exr_layer_choose(run, path, r->file, layer, &r->layer));
+    OTX_TRY(read_compression(r));
     read_metadata(r);
     OTX_TRY(read_windows(r));
+    if (needs_library(r))
+        return read_by_library(r);
     exr_get_storage(r->file, r->layer.part, &storage);
     return storage == EXR_STORAGE_TILED ? read_tiles(r) : read_scanlines(r);
+}
+
+otx_status
+otx_exr_read(otx_run *run, const char *path, otx_picture *out)
+{
+    return otx_exr_read_layer(run, path, NULL, out);
 }

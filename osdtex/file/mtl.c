@@ -105,6 +105,7 @@ read_diffuse(reader *r, otx_mtl_material *material)
         return OSDTEX_OK;
     OTX_TRY(otx_text_parse_float(&r->text, token, "color", &kd[0]));
     kd[1] = kd[2] = kd[0];
+    material->has_diffuse = true;
     if (otx_text_count(&r->text) == 0)
         return OSDTEX_OK;
     OTX_TRY(otx_text_float(&r->text, "green", &kd[1]));

@@ -12,6 +12,7 @@ typedef struct otx_mtl_material
 {
     const char *name;   /* verbatim: the rest of the line */
     float diffuse[3];   /* `Kd`, 1 1 1 when absent */
+    bool has_diffuse;   /* it is there; the writer always writes it */
     const char *map_kd; /* file name as written, options skipped; NULL none */
     int64_t line;       /* of `newmtl`; the writer does not look */
 } otx_mtl_material;

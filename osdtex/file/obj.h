@@ -64,6 +64,10 @@ typedef struct otx_obj
     const char *point_lines;
     size_t point_line_bytes;
     const float *uvs; /* [uv_count * 2], finite */
+    /* Normals are written, and passed over in reading. */
+    int32_t normal_count;
+    const float *normals;        /* [normal_count * 3] */
+    const int32_t *face_normals; /* [corner_count], NULL none */
 
     const int32_t *face_first; /* [face_count + 1] */
     const int32_t *face_verts; /* [corner_count], in [0, vert_count) */

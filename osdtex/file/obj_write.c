@@ -88,6 +88,12 @@ write_vertices(otx_text_out *out, const otx_obj *obj)
         write_floats(out, obj->uvs + 2 * i, 2);
         otx_text_out_char(out, '\n');
     }
+    for (size_t i = 0; i < (size_t)obj->normal_count; ++i)
+    {
+        otx_text_out_bytes(out, "vn", 2);
+        write_floats(out, obj->normals + 3 * i, 3);
+        otx_text_out_char(out, '\n');
+    }
 }
 
 static void
@@ -116,10 +122,17 @@ write_face(otx_text_out *out, const otx_obj *obj, int32_t face)
     {
         otx_text_out_char(out, ' ');
         otx_text_out_int(out, (int64_t)obj->face_verts[c] + 1);
-        if (!obj->face_uvs || obj->face_uvs[c] < 0)
+        if (obj->face_uvs && obj->face_uvs[c] >= 0)
+        {
+            otx_text_out_char(out, '/');
+            otx_text_out_int(out, (int64_t)obj->face_uvs[c] + 1);
+        }
+        else if (obj->face_normals)
+            otx_text_out_char(out, '/');
+        if (!obj->face_normals)
             continue;
         otx_text_out_char(out, '/');
-        otx_text_out_int(out, (int64_t)obj->face_uvs[c] + 1);
+        otx_text_out_int(out, (int64_t)obj->face_normals[c] + 1);
     }
     otx_text_out_char(out, '\n');
 }
@@ -235,6 +248,8 @@ otx_obj_write(
     OTX_TRY(check_finite(run, name, "vertex", obj->points, obj->vert_count, 3));
     OTX_TRY(
         check_finite(run, name, "texture vertex", obj->uvs, obj->uv_count, 2));
+    OTX_TRY(
+        check_finite(run, name, "normal", obj->normals, obj->normal_count, 3));
     status = otx_text_out_open(run, STAGE, path, name, &out);
     if (status == OSDTEX_OK)
         status = write_obj(run, obj, o, out);

@@ -8,8 +8,10 @@
 #include "file/tiff_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum
 {
@@ -42,13 +44,23 @@ static const format formats[] = {
 static otx_status
 read_magic(otx_run *run, const char *path, uint8_t magic[MAGIC_BYTES])
 {
-    FILE *file = fopen(path, "rb");
+    /* A named pipe is opened without waiting for somebody to write. */
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    FILE *file = fd < 0 ? NULL : fdopen(fd, "rb");
+    struct stat info;
 
     memset(magic, 0, MAGIC_BYTES);
     if (!file)
         return otx_fail(
             run, OSDTEX_ERROR_IO, "picture", otx_where_file(path),
             "the picture cannot be opened (%s)", strerror(errno));
+    if (fstat(fileno(file), &info) == 0 && S_ISFIFO(info.st_mode))
+    {
+        fclose(file);
+        return otx_fail(
+            run, OSDTEX_ERROR_IO, "picture", otx_where_file(path),
+            "a picture cannot be read from a pipe here; give a file");
+    }
     errno = 0;
     fread(magic, 1, MAGIC_BYTES, file);
 
@@ -147,9 +159,20 @@ check_finite(otx_run *run, const char *path, const otx_picture *picture)
 }
 
 static otx_status
-read_as(otx_run *run, const format *f, const char *path, otx_picture *out)
+read_as(
+    otx_run *run, const format *f, const char *path, const char *layer,
+    otx_picture *out)
 {
-    OTX_TRY(f->read(run, path, out));
+    if (layer && f->kind == OTX_PICTURE_EXR)
+        OTX_TRY(otx_exr_read_layer(run, path, layer, out));
+    else
+        OTX_TRY(f->read(run, path, out));
+    if (layer && f->kind != OTX_PICTURE_EXR)
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, "picture", otx_where_file(path),
+            "the picture is no EXR and has no layers, so '%.60s' is not "
+            "looked for",
+            layer);
     out->kind = f->kind;
     out->has_alpha = out->image.channels == 4;
     if (f->kind != OTX_PICTURE_EXR)
@@ -163,6 +186,13 @@ read_as(otx_run *run, const format *f, const char *path, otx_picture *out)
 
 otx_status
 otx_picture_read(otx_run *run, const char *path, otx_picture *out)
+{
+    return otx_picture_read_layer(run, path, NULL, out);
+}
+
+otx_status
+otx_picture_read_layer(
+    otx_run *run, const char *path, const char *layer, otx_picture *out)
 {
     uint8_t magic[MAGIC_BYTES];
 
@@ -179,7 +209,7 @@ otx_picture_read(otx_run *run, const char *path, otx_picture *out)
 
     const otx_arena_mark results = otx_arena_here(run->arena);
     const otx_arena_mark temporaries = otx_arena_here(run->scratch);
-    const otx_status status = read_as(run, f, path, out);
+    const otx_status status = read_as(run, f, path, layer, out);
 
     otx_arena_release(run->scratch, temporaries);
     if (status != OSDTEX_OK)

@@ -65,7 +65,8 @@ typedef struct otx_picture
  *
  * IO      the file does not open or read
  * FORMAT  not one of the four formats, damaged, or cut short
- * SUPPORT a kind of file that is not read (deep, DWA, CMYK, ...)
+ * SUPPORT a kind of file that is not read (deep, CMYK, ...), or an EXR whose
+ *         layers leave it unclear which is the picture
  * LIMIT   larger than OTX_IMAGE_MAX_SIDE or OTX_PICTURE_MAX_PIXELS
  * NUMERIC a pixel is not finite: the first is named
  * MEMORY  */
@@ -74,6 +75,12 @@ otx_status otx_picture_read(otx_run *run, const char *path, otx_picture *out);
 /* For the readers of one format: keeps a copy of an ICC profile. MEMORY. */
 otx_status otx_picture_keep_icc(
     otx_run *run, const uint8_t *bytes, size_t size, otx_picture *out);
+
+/* The same, of an EXR the layer of this name; NULL: see exr_layer.h. Pictures
+ * of other kinds have no layers, which is noted. ARGUMENT when there is no such
+ * layer. */
+otx_status otx_picture_read_layer(
+    otx_run *run, const char *path, const char *layer, otx_picture *out);
 
 /* For the readers of one format: FORMAT or LIMIT unless the size is one that
  * is read. It is what the file claims, in full, so that no cast can hide it. */

@@ -102,10 +102,14 @@ write_tuples(
     otx_text_out_char(out, ']');
 }
 
+/*   type  "uniform token" or "token", as the schema declares it */
 static void
-write_token(otx_text_out *out, const char *name, const char *value)
+write_token(
+    otx_text_out *out, const char *type, const char *name, const char *value)
 {
-    otx_text_out_string(out, "        uniform token ");
+    otx_text_out_string(out, "        ");
+    otx_text_out_string(out, type);
+    otx_text_out_char(out, ' ');
     otx_text_out_string(out, name);
     otx_text_out_string(out, " = \"");
     otx_text_out_string(out, value);
@@ -226,6 +230,26 @@ write_uvs(otx_text_out *out, const otx_usda *u)
     otx_text_out_char(out, '\n');
 }
 
+/* Corner by corner: the attribute has no indices. */
+static bool
+write_normals(otx_run *run, otx_text_out *out, const otx_usda *u)
+{
+    float *spread = OTX_NEW(run->scratch, float, 3 * (size_t)u->corner_count);
+
+    if (!u->normals)
+        return true;
+    for (int32_t c = 0; spread && c < u->corner_count; ++c)
+        memcpy(
+            spread + 3 * (size_t)c, u->normals + 3 * (size_t)u->face_normals[c],
+            3 * sizeof *spread);
+    if (!spread)
+        return false;
+    write_tuples(out, "normal3f[] normals", spread, u->corner_count, 3);
+    otx_text_out_string(
+        out, " (\n            interpolation = \"faceVarying\"\n        )\n");
+    return true;
+}
+
 /* Names that become one identifier would be one prim: the index tells them
  * apart. */
 static bool
@@ -246,9 +270,9 @@ write_subset(otx_run *run, otx_text_out *out, const otx_usda *u, int32_t index)
     otx_text_out_char(out, '_');
     otx_text_out_string(out, name);
     otx_text_out_string(out, "\"\n        {\n    ");
-    write_token(out, "elementType", "face");
+    write_token(out, "uniform token", "elementType", "face");
     otx_text_out_string(out, "    ");
-    write_token(out, "familyName", "group");
+    write_token(out, "uniform token", "familyName", "group");
     otx_text_out_string(out, "    ");
     write_ints(out, "indices", faces, count);
     otx_text_out_string(out, "\n        }\n");
@@ -277,18 +301,19 @@ write_mesh(otx_run *run, otx_text_out *out, const otx_usda *u, const char *name)
         out, "    def Mesh \"Cage\" (\n"
              "        prepend apiSchemas = [\"MaterialBindingAPI\"]\n"
              "    )\n    {\n");
-    write_token(out, "subdivisionScheme", u->scheme);
-    write_token(out, "interpolateBoundary", u->boundary);
-    write_token(out, "faceVaryingLinearInterpolation", u->fvar);
-    write_token(out, "triangleSubdivisionRule", u->triangles);
-    write_token(out, "orientation", "rightHanded");
+    write_token(out, "uniform token", "subdivisionScheme", u->scheme);
+    write_token(out, "token", "interpolateBoundary", u->boundary);
+    write_token(out, "token", "faceVaryingLinearInterpolation", u->fvar);
+    write_token(out, "token", "triangleSubdivisionRule", u->triangles);
+    write_token(out, "uniform token", "orientation", "rightHanded");
     if (!write_faces(run, out, u))
         return false;
     write_tuples(out, "point3f[] points", u->points, u->vert_count, 3);
     otx_text_out_char(out, '\n');
     write_extent(out, u);
     write_origin(out, u);
-    if (!write_sharp(run, out, u) || !write_holes(run, out, u))
+    if (!write_sharp(run, out, u) || !write_holes(run, out, u) ||
+        !write_normals(run, out, u))
         return false;
     write_uvs(out, u);
     otx_text_out_string(out, "        rel material:binding = </");
@@ -415,9 +440,14 @@ write_all(otx_run *run, otx_text_out *out, const otx_usda *u)
         otx_text_out_char(out, '\n');
     }
     otx_text_out_mark(out, run->mark, "# ", "\n");
+    write_template(out, "(\n    defaultPrim = \"$\"\n", name, u);
+    otx_text_out_string(out, "    metersPerUnit = ");
+    otx_text_out_double(out, u->meters_per_unit);
+    otx_text_out_string(
+        out, u->z_up ? "\n    upAxis = \"Z\"\n" : "\n    upAxis = \"Y\"\n");
     write_template(
         out,
-        "(\n    defaultPrim = \"$\"\n    upAxis = \"Y\"\n)\n\n"
+        ")\n\n"
         "def Xform \"$\" (\n    kind = \"component\"\n)\n{\n",
         name, u);
     if (!write_mesh(run, out, u, name))

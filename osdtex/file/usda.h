@@ -26,12 +26,14 @@ typedef struct otx_usda
     const char *triangles; /* "catmullClark", "smooth" */
 
     int32_t vert_count, face_count, corner_count, uv_count;
-    const float *points;       /* [vert_count * 3], relative to `origin` */
-    double origin[3];          /* the mesh is moved there; as a rule zero */
-    const int32_t *face_first; /* [face_count + 1] */
-    const int32_t *face_verts; /* [corner_count] */
-    const float *uvs;          /* [uv_count * 2] */
-    const int32_t *face_uvs;   /* [corner_count] */
+    const float *points;         /* [vert_count * 3], relative to `origin` */
+    double origin[3];            /* the mesh is moved there; as a rule zero */
+    const int32_t *face_first;   /* [face_count + 1] */
+    const int32_t *face_verts;   /* [corner_count] */
+    const float *normals;        /* by face_normals; NULL none */
+    const int32_t *face_normals; /* [corner_count] */
+    const float *uvs;            /* [uv_count * 2] */
+    const int32_t *face_uvs;     /* [corner_count] */
 
     int32_t crease_count, corner_tag_count;
     const int32_t *crease_verts;   /* [crease_count * 2] */
@@ -41,6 +43,8 @@ typedef struct otx_usda
     const uint8_t *face_hole; /* [face_count] or NULL */
     otx_usda_subsets groups;
 
+    double meters_per_unit; /* positive */
+    bool z_up;              /* else y is up */
     const char *texture; /* file name relative to this one; may hold <UDIM> */
     const char *interop_id; /* colorInteropID of its pixels; NULL unknown */
     const char *const *comments; /* [comment_count], without `#` */

@@ -6,6 +6,7 @@
 
 #include "math/vec.h"
 #include "surface/cage_check.h"
+#include "surface/cage_mend.h"
 #include "surface/cage_tags.h"
 #include "surface/topology.h"
 
@@ -310,9 +311,11 @@ advise_scheme(otx_run *run, const otx_cage *cage)
 
 static otx_status
 build(
-    otx_run *run, const otx_cage_input *in, const otx_cage_options *options,
+    otx_run *run, const otx_cage_input *given, const otx_cage_options *options,
     otx_cage *cage)
 {
+    otx_cage_input mended = *given;
+    const otx_cage_input *in = &mended;
     otx_topology topology;
     bool uvs;
 
@@ -320,12 +323,21 @@ build(
     OTX_TRY(otx_cage_check_faces(run, in, options->scheme));
     OTX_TRY(otx_cage_check_points(run, in));
     OTX_TRY(otx_cage_check_uvs(run, in, &uvs));
+    if (options->weld >= 0.0)
+    {
+        OTX_TRY(otx_cage_weld(run, options->weld, &mended));
+        OTX_TRY(otx_cage_check_faces(run, in, options->scheme));
+    }
     if (!otx_topology_build(
             run->scratch, in->vert_count, in->face_count, in->face_first,
             in->face_verts, &topology))
         return otx_fail_memory(run, STAGE);
     OTX_TRY(otx_cage_check_manifold(
         run, in, &topology, options->scheme, &cage->split_count));
+    if (options->weld < 0.0)
+        OTX_TRY(otx_cage_note_gaps(run, in, &topology));
+    if (uvs && options->scheme != OTX_SCHEME_NONE)
+        OTX_TRY(otx_cage_split_folds(run, &topology, &mended));
     OTX_TRY(copy_mesh(run, in, uvs, cage));
     OTX_TRY(copy_point_lines(run, in, cage));
     OTX_TRY(copy_carried(run, in, cage));

@@ -128,6 +128,10 @@ typedef struct otx_cage_input
     const int32_t *hole_faces;         /* [hole_count] */
     const int64_t *hole_line;          /* [hole_count] or NULL */
 
+    /* [vert_count] what vertices were welded to, as otx_weld_find makes it;
+     * NULL before welding. */
+    const int32_t *welded;
+
     /* What the file's tags say, OTX_CAGE_UNSET where they say nothing. */
     int32_t boundary;         /* otx_boundary */
     int32_t fvar;             /* otx_fvar */
@@ -172,14 +176,16 @@ typedef struct otx_cage_options
     int32_t fvar;             /* otx_fvar */
     int32_t crease_chaikin;   /* 0 or 1 */
     int32_t triangles_smooth; /* 0 or 1 */
+    double weld; /* vertices within this distance become one; 0: within
+                  * OTX_WELD_SHARE of the box; negative: none */
 } otx_cage_options;
 
 static inline otx_cage_options
 otx_cage_options_default(void)
 {
-    return (otx_cage_options){
-        OTX_SCHEME_CATMARK, OTX_CAGE_UNSET, OTX_CAGE_UNSET, OTX_CAGE_UNSET,
-        OTX_CAGE_UNSET};
+    return (otx_cage_options){OTX_SCHEME_CATMARK, OTX_CAGE_UNSET,
+                              OTX_CAGE_UNSET,     OTX_CAGE_UNSET,
+                              OTX_CAGE_UNSET,     -1.0};
 }
 
 /* Checks `input` and copies it into a cage that lives in run->arena and

@@ -406,6 +406,12 @@ count_pinches(
     return OSDTEX_OK;
 }
 
+static bool
+is_welded_away(const otx_cage_input *in, int32_t vertex)
+{
+    return in->welded && in->welded[vertex] != vertex;
+}
+
 static otx_status
 check_fans(
     otx_run *run, const otx_cage_input *in, const otx_topology *t, bool plain,
@@ -413,7 +419,7 @@ check_fans(
 {
     const otx_topology_fan *fans = otx_topology_fans(run->scratch, t);
     otx_status status = OSDTEX_OK;
-    int32_t isolated = 0;
+    int32_t isolated = 0, unused = 0;
     otx_where where = OTX_NOWHERE;
 
     *split_count = 0;
@@ -421,8 +427,9 @@ check_fans(
         return otx_fail_memory(run, STAGE);
     for (int32_t v = 0; v < t->vert_count; ++v)
     {
-        if (fans[v].start < 0 && isolated++ == 0)
+        if (fans[v].start < 0 && !is_welded_away(in, v) && isolated++ == 0)
             where = at_vertex(in, v);
+        unused += fans[v].start < 0;
         if (fans[v].start >= 0 && !plain)
             record(&status, check_fan(run, in, t, v, fans[v]));
     }
@@ -434,8 +441,7 @@ check_fans(
             isolated, where.vertex);
     if (plain || status != OSDTEX_OK)
         return status;
-    return count_pinches(
-        run, in, t, fans, t->vert_count - isolated, split_count);
+    return count_pinches(run, in, t, fans, t->vert_count - unused, split_count);
 }
 
 /* A plain mesh is not refused for what it is not: where it is no manifold it

@@ -10,6 +10,26 @@ import sys
 from pathlib import Path
 
 
+def judge_conformance(stage):
+    """USD's own validators find nothing, and attributes are declared as the
+    schema declares them."""
+    from pxr import UsdValidation
+
+    validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
+    errors = UsdValidation.ValidationContext(validators).Validate(stage)
+    assert not errors, [e.GetErrorAsString() for e in errors]
+    for prim in stage.Traverse():
+        schema = prim.GetPrimDefinition()
+        for attribute in prim.GetAuthoredAttributes():
+            if attribute.GetName() not in schema.GetPropertyNames():
+                continue
+            spec = schema.GetSchemaAttributeSpec(attribute.GetName())
+            assert spec.variability == attribute.GetVariability(), attribute
+            assert spec.typeName == attribute.GetTypeName(), attribute
+    for key in ("metersPerUnit", "upAxis"):
+        assert stage.HasAuthoredMetadata(key), key
+
+
 def judge_usd(folder):
     from pxr import Usd, UsdGeom, UsdShade
 
@@ -30,6 +50,7 @@ def judge_usd(folder):
     assert len(st.ComputeFlattened()) == sum(len(f.split()) - 1 for f in faces)
     material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
     assert material.ComputeSurfaceSource()[0]
+    judge_conformance(stage)
     print("USD reads shape.usda")
 
 

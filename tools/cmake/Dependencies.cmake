@@ -32,7 +32,7 @@ set_target_properties(osdtex_dep_cholmod PROPERTIES
   INTERFACE_INCLUDE_DIRECTORIES "${CHOLMOD_INCLUDE_DIR}")
 
 set(OSDTEX_LIBRARIES
-  osdtex_dep_osd osdtex_dep_cholmod OpenEXR::OpenEXRCore embree PNG::PNG
+  osdtex_dep_osd osdtex_dep_cholmod OpenEXR::OpenEXRCore OpenEXR::OpenEXR embree PNG::PNG
   TIFF::TIFF JPEG::JPEG
   PkgConfig::OCIO PkgConfig::LCMS2 PkgConfig::DEFLATE PkgConfig::FFTW3F PkgConfig::JANSSON PkgConfig::XXHASH
   Threads::Threads m)

@@ -17,7 +17,8 @@ install(FILES docs/man/osdtex.1
 # The archive needs what it is made of. Names of libraries rather than targets:
 # a consumer shall not need the (partly broken) CMake packages of the
 # dependencies, only the libraries themselves.
-set(OSDTEX_PRIVATE_LIBS -losdCPU -lOpenEXRCore -lOpenColorIO -llcms2 -lfftw3f
+set(OSDTEX_PRIVATE_LIBS -losdCPU -lOpenEXRCore -lOpenEXR -lImath
+  -lOpenColorIO -llcms2 -lfftw3f
   -lcholmod -lembree3 -lpng -ltiff -ljpeg -ljansson -lxxhash -ldeflate -lstdc++
   -lpthread -lm)
 list(JOIN OSDTEX_PRIVATE_LIBS " " OSDTEX_PRIVATE_LIBS_TEXT)

@@ -188,6 +188,165 @@ test_first_part_with_color_is_used(void **state)
     assert_non_null(strstr(test_last_message(f->run), "part 1"));
 }
 
+/* Findings of one file and kind fold, so each refusal has a name of its own. */
+static void
+refuse(
+    const fixture *f, const char *name, otx_status expected, const char *word)
+{
+    otx_picture picture;
+
+    assert_int_equal(
+        otx_picture_read(f->run, test_path(&f->folder, name), &picture),
+        expected);
+    if (!strstr(test_last_message(f->run), word))
+        fail_msg("no \"%s\" in: %s", word, test_last_message(f->run));
+}
+
+/* As OpenEXR itself decodes them: scanlines and tiles, half and float, with
+ * alpha, in a part of several; and what is cut off is an error. */
+static void
+test_dwa_is_read(void **state)
+{
+    static const char *const cases[] = {
+        "a.exr -d half --compression dwaa",
+        "a.exr -d float --compression dwab",
+        "a.exr -d half --tile 32 32 --compression dwab",
+        "a.exr --ch R,G,B,A=0.5 -d half --compression dwaa:300",
+        "a.exr --ch G --chnames Y -d half --compression dwaa",
+        "a.exr --fullsize 40x30+10+5 -d half --compression dwaa",
+    };
+    const fixture *f = *state;
+    size_t bytes;
+    uint8_t *data;
+
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
+    {
+        char arguments[512];
+        otx_picture ours, theirs;
+
+        snprintf(
+            arguments, sizeof arguments,
+            "%s -o dwa%zu.exr dwa%zu.exr -d float --compression zip --scanline "
+            "-o zip%zu.exr",
+            cases[i], i, i, i);
+        make(f, arguments);
+        snprintf(arguments, sizeof arguments, "dwa%zu.exr", i);
+        ours = read_file(f, arguments);
+        snprintf(arguments, sizeof arguments, "zip%zu.exr", i);
+        theirs = read_file(f, arguments);
+        test_same_image(&ours.image, &theirs.image, 0.0);
+    }
+    data = test_read_bytes(f->run, test_path(&f->folder, "dwa0.exr"), &bytes);
+    test_write_bytes(test_path(&f->folder, "cut.exr"), data, bytes - 200);
+    refuse(f, "cut.exr", OSDTEX_ERROR_FORMAT, "damaged or cut short");
+}
+
+void write_chroma(
+    const char *path, const float *rgb, int width, int height, bool alpha);
+
+/* A smooth picture is the same again but for the rounding of half. */
+static void
+test_luminance_with_chroma_is_read(void **state)
+{
+    enum
+    {
+        W = 38,
+        H = 22
+    };
+    const fixture *f = *state;
+    float *rgb = OTX_NEW(f->run->arena, float, 3 * W * H);
+
+    for (int32_t i = 0; i < W * H; ++i)
+    {
+        rgb[3 * i] = 0.2f + 0.6f * (float)(i % W) / W;
+        rgb[3 * i + 1] = 0.2f + 0.6f * (float)(i / W) / H;
+        rgb[3 * i + 2] = 0.9f - 0.5f * (float)(i % W) / W;
+    }
+    for (int alpha = 0; alpha < 2; ++alpha)
+    {
+        otx_picture picture;
+
+        write_chroma(test_path(&f->folder, "yc.exr"), rgb, W, H, alpha == 1);
+        picture = read_file(f, "yc.exr");
+        assert_int_equal(picture.image.channels, 3 + alpha);
+        assert_false(picture.is_gray);
+        for (int32_t y = 0; y < H; ++y)
+            for (int32_t x = 0; x < W; ++x)
+                for (int32_t c = 0; c < 3; ++c)
+                    assert_float_equal(
+                        otx_image_at(&picture.image, x, H - 1 - y)[c],
+                        rgb[3 * (y * W + x) + c], 0.05);
+    }
+}
+
+/* Colours of another kind in front of, and beside, the picture. */
+static void
+test_the_right_layer_is_read(void **state)
+{
+    static const struct
+    {
+        const char *arguments; /* a.exr is the picture, g a grey one */
+        const char *layer;     /* NULL plain */
+    } cases[] = {
+        {"g.exr --chnames N.R,N.G,N.B a.exr --chappend", NULL},
+        {"g.exr --chnames crypto00.R,crypto00.G,crypto00.B a.exr --chnames "
+         "rgba.R,rgba.G,rgba.B --chappend",
+         "rgba"},
+        {"g.exr --chnames diffuse.R,diffuse.G,diffuse.B a.exr --chnames "
+         "beauty.R,beauty.G,beauty.B --chappend",
+         "beauty"},
+        {"g.exr --chnames V.Normal.R,V.Normal.G,V.Normal.B a.exr --chnames "
+         "V.Combined.R,V.Combined.G,V.Combined.B --chappend",
+         "V.Combined"},
+        {"g.exr --attrib oiio:subimagename crypto00 --chnames "
+         "crypto00.R,crypto00.G,crypto00.B a.exr --attrib oiio:subimagename "
+         "diffuse --siappend",
+         "diffuse"},
+        {"g.exr --attrib oiio:subimagename N a.exr --attrib "
+         "oiio:subimagename main --siappend",
+         "main"},
+    };
+    const fixture *f = *state;
+
+    make(f, "--create 100x70 3 -d half -o g.exr");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
+    {
+        const otx_picture picture = made(f, cases[i].arguments);
+
+        test_same_image(&picture.image, &f->image, 1e-3);
+        if (cases[i].layer)
+            assert_string_equal(picture.layer, cases[i].layer);
+        else
+            assert_null(picture.layer);
+    }
+}
+
+/* Several that may be meant, none that can be: they are listed, and taken when
+ * they are asked for. */
+static void
+test_unclear_layers_are_listed(void **state)
+{
+    const fixture *f = *state;
+    otx_picture picture;
+
+    make(
+        f, "a.exr --chnames key.R,key.G,key.B a.exr --mulc 0.5 --chnames "
+           "fill.R,fill.G,fill.B --chappend -d float -o b.exr");
+    refuse(f, "b.exr", OSDTEX_ERROR_SUPPORT, "layer: fill, key");
+    make(f, "a.exr --chnames N.R,N.G,N.B -o c.exr");
+    refuse(f, "c.exr", OSDTEX_ERROR_SUPPORT, "layer: N");
+    assert_int_equal(
+        otx_picture_read_layer(
+            f->run, test_path(&f->folder, "b.exr"), "key", &picture),
+        OSDTEX_OK);
+    test_same_image(&picture.image, &f->image, 0.0);
+    assert_int_equal(
+        otx_picture_read_layer(
+            f->run, test_path(&f->folder, "b.exr"), "rim", &picture),
+        OSDTEX_ERROR_ARGUMENT);
+    assert_non_null(strstr(test_last_message(f->run), "it has fill, key"));
+}
+
 static void
 test_uint_channels_are_numbers(void **state)
 {
@@ -220,29 +379,11 @@ test_picture_is_what_is_stored_and_shown(void **state)
     assert_non_null(strstr(test_last_message(f->run), "(0, 0) to (99, 69)"));
 }
 
-/* Findings of one file and kind fold, so each refusal has a name of its own. */
-static void
-refuse(
-    const fixture *f, const char *name, otx_status expected, const char *word)
-{
-    otx_picture picture;
-
-    assert_int_equal(
-        otx_picture_read(f->run, test_path(&f->folder, name), &picture),
-        expected);
-    if (!strstr(test_last_message(f->run), word))
-        fail_msg("no \"%s\" in: %s", word, test_last_message(f->run));
-}
-
 static void
 test_what_is_not_read_is_said(void **state)
 {
     const fixture *f = *state;
 
-    make(f, "a.exr -d half --compression dwaa -o b.exr");
-    refuse(f, "b.exr", OSDTEX_ERROR_SUPPORT, "--compression zip");
-    make(f, "a.exr -d half --compression dwab -o c.exr");
-    refuse(f, "c.exr", OSDTEX_ERROR_SUPPORT, "DWAB");
     make(f, "a.exr --ch R,G --chnames depth,mask.R -o d.exr");
     refuse(f, "d.exr", OSDTEX_ERROR_SUPPORT, "depth, mask.R");
     make(f, "a.exr --fullsize 10x10+500+500 -o e.exr");
@@ -375,6 +516,10 @@ main(void)
         TEST(test_luminance_becomes_gray),
         TEST(test_alpha_is_kept),
         TEST(test_first_part_with_color_is_used),
+        TEST(test_dwa_is_read),
+        TEST(test_luminance_with_chroma_is_read),
+        TEST(test_the_right_layer_is_read),
+        TEST(test_unclear_layers_are_listed),
         TEST(test_uint_channels_are_numbers),
         TEST(test_picture_is_what_is_stored_and_shown),
         TEST(test_what_is_not_read_is_said),

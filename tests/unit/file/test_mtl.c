@@ -109,7 +109,8 @@ static void
 written_text_is_plain(void **state)
 {
     static const otx_mtl_material materials[] = {
-        {"my mat", {1, 1, 1}, "x.exr", 0}, {"b", {.5f, 0, 1}, NULL, 0}};
+        {.name = "my mat", .diffuse = {1, 1, 1}, .map_kd = "x.exr"},
+        {.name = "b", .diffuse = {.5f, 0, 1}}};
     static const otx_mtl mtl = {"t.mtl", 2, materials};
     otx_run *run = *state;
     char path[] = "/tmp/osdtex-mtl-XXXXXX";

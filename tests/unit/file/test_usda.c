@@ -44,6 +44,8 @@ small_cage(void)
         .corner_tag_sharpness = CORNER_SHARP,
         .face_hole = HOLES,
         .groups = {2, GROUPS, FACE_GROUP},
+        .meters_per_unit = 0.01,
+        .z_up = true,
         .texture = "shirts.<UDIM>.exr",
         .interop_id = "lin_ap1_scene",
     };
@@ -77,10 +79,11 @@ everything_of_a_cage_is_said(void **state)
     static const char *const lines[] = {
         "#usda 1.0\n",
         "defaultPrim = \"_2_shirts\"",
+        "metersPerUnit = 0.01\n    upAxis = \"Z\"\n",
         "uniform token subdivisionScheme = \"catmullClark\"",
-        "uniform token interpolateBoundary = \"edgeAndCorner\"",
-        "uniform token faceVaryingLinearInterpolation = \"all\"",
-        "uniform token triangleSubdivisionRule = \"smooth\"",
+        "        token interpolateBoundary = \"edgeAndCorner\"",
+        "        token faceVaryingLinearInterpolation = \"all\"",
+        "        token triangleSubdivisionRule = \"smooth\"",
         "int[] faceVertexCounts = [4, 3]",
         "int[] faceVertexIndices = [0, 1, 2, 3, 1, 4, 2]",
         "(0, 1, 0.5), (2, 0, 0)]",
