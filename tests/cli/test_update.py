@@ -27,6 +27,8 @@ CHANGED = {
     "scheme": "bilinear", "boundary": "edgeOnly", "fvar": "all",
     "from": "Linear Rec.709", "to": "ACEScg", "match-space": "sRGB",
     "match-in": "lab", "wrap": "no", "tileable": "make", "show": "uv",
+    "weld": "0.1", "layer": "beauty", "normals": None, "units": "mm",
+    "up": "z",
 }
 APART = {"output", "preview", "json-report", "threads", "memory-limit",
          "colorconfig", "dry-run", "update", "replace", "verbose", "quiet",
