@@ -219,6 +219,7 @@ otx_bake_create(
             options->kind == OTX_TEXEL_COLOR ? options->seam_blend : 0.0,
         .source = {
             .mapping = mapping,
+            .show = otx_show_of(mapping),
             .layout = layout,
             .exemplars = exemplars,
             .kind = options->kind,

@@ -1,8 +1,6 @@
 /* mip_facet.c -- a facet on a mip level: everything on it is affine. */
 #include "bake/mip_facet.h"
 
-#include "bake/mixture.h"
-
 /* Barycentric coordinates over the texels of a mip level. */
 static void
 set_coordinates(const otx_mip *mip, otx_mip_facet *placed)
@@ -27,13 +25,13 @@ set_coordinates(const otx_mip *mip, otx_mip_facet *placed)
 
 /* How a whole texel is looked up, and where that takes several, a sample. */
 static void
-set_probes(const otx_mapping *mapping, double share, otx_mip_facet *placed)
+set_probes(const otx_show_view *show, double share, otx_mip_facet *placed)
 {
     placed->probes =
         otx_texture_measure(placed->texture, placed->uv_dx, placed->uv_dy);
     placed->is_plain = placed->probes.count == 1 && placed->probes.level == 0 &&
                        placed->probes.fraction == 0.0 &&
-                       !otx_mixture_has(mapping, placed->facet.face);
+                       !otx_show_is_layered(show, placed->facet.face);
     if (!placed->is_plain)
         placed->probes = otx_texture_measure(
             placed->texture, otx_vec2_scale(share, placed->uv_dx),
@@ -58,6 +56,6 @@ otx_mip_facet_make(
     placed.uv = otx_mip_facet_mix(source->mapping, &placed.facet, placed.at);
     placed.uv_dx = otx_mip_facet_mix(source->mapping, &placed.facet, placed.dx);
     placed.uv_dy = otx_mip_facet_mix(source->mapping, &placed.facet, placed.dy);
-    set_probes(source->mapping, share, &placed);
+    set_probes(&source->show, share, &placed);
     return placed;
 }

@@ -6,22 +6,11 @@ otx_sample_at(
     const otx_texel_source *source, const otx_walk *walk, double share,
     float *color)
 {
-    const otx_mapping *mapping = source->mapping;
-    const otx_facet *facet = &walk->facet;
-    const otx_texture *texture = otx_texel_texture(source, facet->face);
+    const otx_show_place place = {
+        walk->facet.face, walk->facet.corners, walk->at, walk->dx, walk->dy};
 
-    if (otx_mixture_has(mapping, facet->face))
-    {
-        otx_mixture_color(source, texture, walk, share, color);
-        return;
-    }
-
-    const otx_texture_probes probes = otx_texture_measure(
-        texture,
-        otx_vec2_scale(share, otx_mip_facet_mix(mapping, facet, walk->dx)),
-        otx_vec2_scale(share, otx_mip_facet_mix(mapping, facet, walk->dy)));
-
-    otx_sample_probe(
-        source, texture, &probes, otx_mip_facet_mix(mapping, facet, walk->at),
-        color);
+    otx_show_color(
+        &source->show, source->textures, &place,
+        otx_source_of(source->mapping, walk->facet.face), share,
+        source->channels, color);
 }

@@ -3,7 +3,6 @@
 #define OTX_BAKE_SAMPLE_H
 
 #include "bake/mip_facet.h"
-#include "bake/mixture.h"
 
 /* A lookup with all channels that are baked: a picture without alpha is opaque
  * beside one that has it. */
@@ -17,27 +16,28 @@ otx_sample_probe(
         color[3] = 1.0f;
 }
 
-/* At a texel position on a facet that was made with this share. */
+/* At a place that a walk came to. */
+void otx_sample_at(
+    const otx_texel_source *source, const otx_walk *walk, double share,
+    float *color);
+
+/* At a texel position on a facet that was made with this share. Of a face with
+ * one lookup the probes are the same all over the facet. */
 static inline void
 otx_sample_on_piece(
     const otx_texel_source *source, const otx_mip_facet *placed, double share,
     otx_vec2 at, float *color)
 {
-    if (otx_mixture_has(source->mapping, placed->facet.face))
+    if (otx_show_is_layered(&source->show, placed->facet.face))
     {
         const otx_walk walk = otx_mip_facet_place(placed, at);
 
-        otx_mixture_color(source, placed->texture, &walk, share, color);
+        otx_sample_at(source, &walk, share, color);
         return;
     }
     otx_sample_probe(
         source, placed->texture, &placed->probes, otx_mip_facet_uv(placed, at),
         color);
 }
-
-/* At a place that a walk came to. */
-void otx_sample_at(
-    const otx_texel_source *source, const otx_walk *walk, double share,
-    float *color);
 
 #endif

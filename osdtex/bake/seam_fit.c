@@ -3,7 +3,6 @@
 #include "bake/seam_fit.h"
 
 #include "bake/facet.h"
-#include "bake/mixture.h"
 #include "mapping/source.h"
 
 /* The table of the C++ library is not linked. */
@@ -23,6 +22,10 @@ static const double MIDWAY = 0.01;
 
 /* Exemplar UVs that differ by less are one: rounding. */
 static const double SAME = 1e-5;
+
+/* Colours of mixed faces that differ by less of the exemplar's range are one:
+ * lattices of photographs repeat no better. */
+static const double ALIKE = 1.0 / 32.0;
 
 /* ---- what an edge shows ---------------------------------------------------
  */
@@ -56,6 +59,28 @@ length_of(const otx_mip *mip, const int32_t corners[3])
     return otx_vec2_length(d);
 }
 
+/* The change of barycentric coordinates from a texel to the next one away from
+ * the edge; 0 where the facet has no area. */
+static void
+step_away(const otx_seam_fit *fit, const int32_t corners[3], double away[3])
+{
+    const otx_mip *mip = fit->mip;
+    const otx_vec2 at = otx_mip_texel(mip, corners[0]);
+    const otx_vec2 edge = otx_vec2_sub(otx_mip_texel(mip, corners[1]), at);
+    const otx_vec2 arm = otx_vec2_sub(otx_mip_texel(mip, corners[2]), at);
+    const double sq = otx_vec2_dot(edge, edge);
+    const double height = otx_vec2_cross(edge, arm) / sqrt(sq);
+    const double foot = otx_vec2_dot(arm, edge) / sq;
+
+    away[0] = away[1] = away[2] = 0.0;
+    /* Written so that NaN, of an edge without length, lands here too. */
+    if (!(fabs(height) > 0.0))
+        return;
+    away[0] = (foot - 1.0) / height;
+    away[1] = -foot / height;
+    away[2] = 1.0 / height;
+}
+
 /* The exemplar's UV from a texel to the next one away from the edge. */
 static otx_vec2
 away_from_edge(const otx_seam_fit *fit, const int32_t corners[3])
@@ -83,18 +108,28 @@ away_from_edge(const otx_seam_fit *fit, const int32_t corners[3])
 /* Texels lie to either side of the edge: a lookup on it sees two of them. */
 static otx_seam_fit_side
 side_of(
-    const otx_seam_fit *fit, const otx_texture *texture,
-    const int32_t corners[3], double step)
+    const otx_seam_fit *fit, int32_t face, const int32_t corners[3],
+    double step)
 {
     const otx_vec2 uv = corner_of(fit->mapping->uvs, corners[0]);
-    const otx_vec2 along =
-        otx_vec2_sub(corner_of(fit->mapping->uvs, corners[1]), uv);
+    otx_seam_fit_side side = {
+        .face = face,
+        .exemplar = otx_source_of(fit->mapping, face),
+        .corners = {corners[0], corners[1], corners[2]},
+        .dx = {-step / SAMPLES, step / SAMPLES, 0.0},
+        .layered = otx_show_is_layered(fit->show, face),
+        .uv = uv,
+        .along = otx_vec2_sub(corner_of(fit->mapping->uvs, corners[1]), uv),
+    };
 
-    return (otx_seam_fit_side){
-        uv, along,
-        otx_texture_measure(
-            texture, otx_vec2_scale(step / SAMPLES, along),
-            otx_vec2_scale(2.0, away_from_edge(fit, corners)))};
+    step_away(fit, corners, side.dy);
+    for (int k = 0; k < 3; ++k)
+        side.dy[k] *= 2.0;
+    side.probes = otx_texture_measure(
+        &fit->textures[side.exemplar],
+        otx_vec2_scale(step / SAMPLES, side.along),
+        otx_vec2_scale(2.0, away_from_edge(fit, corners)));
+    return side;
 }
 
 static int32_t
@@ -116,16 +151,63 @@ is_nothing(double step, bool wrap)
     return fabs(wrap ? step - floor(step + 0.5) : step) < SAME;
 }
 
-/* Whether both sides of an edge show the same. */
-static bool
-is_whole(const otx_texture *texture, const otx_seam_fit_side sides[2])
+/* What one side shows at fraction t of the way from its corner 0. */
+static void
+color_on_side(
+    const otx_seam_fit *fit, const otx_seam_fit_side *side, double t,
+    float *color)
 {
-    const otx_vec2 d = otx_vec2_sub(sides[1].uv, sides[0].uv);
-    const otx_vec2 e = otx_vec2_sub(sides[1].along, sides[0].along);
+    const otx_texture *texture = &fit->textures[side->exemplar];
+    const double at[3] = {1.0 - t, t, 0.0};
+    const otx_show_place place = {
+        side->face, side->corners, at, side->dx, side->dy};
 
-    return is_nothing(d.x, texture->wrap_x) &&
-           is_nothing(d.y, texture->wrap_y) && is_nothing(e.x, false) &&
-           is_nothing(e.y, false);
+    if (side->layered)
+    {
+        otx_show_color(
+            fit->show, fit->textures, &place, side->exemplar, 1.0,
+            fit->grid->channels, color);
+        return;
+    }
+    otx_texture_probe(
+        texture, &side->probes,
+        otx_vec2_add(side->uv, otx_vec2_scale(t, side->along)), color);
+    /* Opaque, where only another exemplar has alpha. */
+    for (int32_t c = texture->pyramid.levels[0].channels;
+         c < fit->grid->channels; ++c)
+        color[c] = 1.0f;
+}
+
+/* Whether both sides of an edge show the same: the same place of the exemplar
+ * where each looks up one, else the same colours, as far as the eye can tell.
+ */
+static bool
+is_whole(const otx_seam_fit *fit, const otx_seam_fit_side sides[2])
+{
+    float a[OTX_IMAGE_MAX_CHANNELS], b[OTX_IMAGE_MAX_CHANNELS];
+
+    if (!sides[0].layered && !sides[1].layered)
+    {
+        const otx_texture *texture = &fit->textures[sides[0].exemplar];
+        const otx_vec2 end = otx_vec2_add(sides[1].uv, sides[1].along);
+        const otx_vec2 d = otx_vec2_sub(end, sides[0].uv);
+        const otx_vec2 e = otx_vec2_add(sides[1].along, sides[0].along);
+
+        return sides[0].exemplar == sides[1].exemplar &&
+               is_nothing(d.x, texture->wrap_x) &&
+               is_nothing(d.y, texture->wrap_y) && is_nothing(e.x, false) &&
+               is_nothing(e.y, false);
+    }
+    for (int s = 0; s <= SAMPLES; ++s)
+    {
+        color_on_side(fit, &sides[0], (double)s / SAMPLES, a);
+        color_on_side(fit, &sides[1], 1.0 - (double)s / SAMPLES, b);
+        for (int32_t c = 0; c < fit->grid->channels; ++c)
+            if (!(fabs((double)a[c] - b[c]) <=
+                  ALIKE * ((double)fit->high[c] - fit->low[c])))
+                return false;
+    }
+    return true;
 }
 
 static void
@@ -139,14 +221,9 @@ set_edge(const otx_seam_fit *fit, int32_t rim, otx_seam_fit_edge *out)
     int32_t here[3], there[3];
 
     out->rim = rim;
-    out->goes_on = other >= 0 &&
-                   otx_source_of(fit->mapping, other) ==
-                       otx_source_of(fit->mapping, r->face) &&
-                   !otx_mixture_has(fit->mapping, r->face) &&
-                   !otx_mixture_has(fit->mapping, other);
+    out->goes_on = other >= 0;
     if (!out->goes_on)
         return;
-    out->texture = &fit->textures[otx_source_of(fit->mapping, r->face)];
     edge_corners(leaf, r->face, r->edge, here);
     edge_corners(leaf, other, edge_of(leaf, other, edge), there);
 
@@ -154,13 +231,10 @@ set_edge(const otx_seam_fit *fit, int32_t rim, otx_seam_fit_edge *out)
 
     out->step = texels > 1.0 ? 1.0 / texels : 1.0;
     otx_mip_ends(mip, r, out->ends);
-    out->sides[0] = side_of(fit, out->texture, here, out->step);
-    out->sides[1] = side_of(fit, out->texture, there, out->step);
-    /* It runs backwards over there. */
-    out->sides[1].uv = otx_vec2_add(out->sides[1].uv, out->sides[1].along);
-    out->sides[1].along = otx_vec2_scale(-1.0, out->sides[1].along);
+    out->sides[0] = side_of(fit, r->face, here, out->step);
+    out->sides[1] = side_of(fit, other, there, out->step);
     /* Along a seam the step is the mapping's own. */
-    out->goes_on = is_whole(out->texture, out->sides);
+    out->goes_on = is_whole(fit, out->sides);
 }
 
 /* What both sides show at fraction t of the way, in the mean. At an end, which
@@ -171,22 +245,17 @@ color_of(
     float *color)
 {
     const int32_t channels = fit->grid->channels;
-    const int32_t given = edge->texture->pyramid.levels[0].channels;
     const double step = t > 0.0 && t < 1.0 ? edge->step : 0.0;
     double sum[OTX_IMAGE_MAX_CHANNELS] = {0.0};
 
     for (int i = 0; i < 2; ++i)
         for (int s = 0; s < SAMPLES; ++s)
         {
-            const otx_seam_fit_side *side = &edge->sides[i];
             const double at = t + ((s + 0.5) / SAMPLES - 0.5) * step;
 
-            otx_texture_probe(
-                edge->texture, &side->probes,
-                otx_vec2_add(side->uv, otx_vec2_scale(at, side->along)), color);
-            /* Opaque, where only another exemplar has alpha. */
+            color_on_side(fit, &edge->sides[i], i == 0 ? at : 1.0 - at, color);
             for (int32_t c = 0; c < channels; ++c)
-                sum[c] += c < given ? color[c] : 1.0f;
+                sum[c] += color[c];
         }
     for (int32_t c = 0; c < channels; ++c)
         color[c] = (float)(sum[c] / (2 * SAMPLES));
@@ -216,7 +285,7 @@ cell_at(double at, int32_t count, double *weight)
     return (int32_t)held;
 }
 
-/* Around a point in texels of the mip level. */
+/* Around a point in texels of the mip. */
 static lookup
 lookup_at(const otx_raster *raster, otx_vec2 at)
 {
@@ -311,7 +380,7 @@ keep(const otx_seam_fit *fit, int32_t x, int32_t y, float *out)
         (size_t)channels * sizeof *out);
 }
 
-static void join_texel(
+static void fit_texel(
     const otx_seam_fit *fit, int32_t x, int32_t y, int32_t depth,
     otx_seam_fit_edge *edge, float *out);
 
@@ -339,7 +408,7 @@ complete(
 
     for (int i = 0; i < (is_corner ? 3 : 1); ++i)
     {
-        join_texel(fit, others[i][0], others[i][1], depth - 1, edge, out);
+        fit_texel(fit, others[i][0], others[i][1], depth - 1, edge, out);
         if (is_corner && !edge->goes_on)
         {
             keep(fit, x, y, out);
@@ -356,7 +425,7 @@ complete(
  * texel of the margin from that across the rim, 2 from those around a corner,
  * too. */
 static void
-join_texel(
+fit_texel(
     const otx_seam_fit *fit, int32_t x, int32_t y, int32_t depth,
     otx_seam_fit_edge *edge, float *out)
 {
@@ -401,5 +470,5 @@ otx_seam_fit_texel(
     const otx_seam_fit *fit, int32_t x, int32_t y, otx_seam_fit_edge *edge,
     float *out)
 {
-    join_texel(fit, x, y, 2, edge, out);
+    fit_texel(fit, x, y, 2, edge, out);
 }

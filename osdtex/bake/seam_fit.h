@@ -12,12 +12,13 @@
 #include "bake/raster.h"
 #include "bake/sharpen.h"
 #include "image/texture.h"
-#include "mapping/mapping.h"
+#include "mapping/show.h"
 
 /* Texels of a block, and what is known of them. */
 typedef struct otx_seam_fit
 {
     const otx_mapping *mapping;
+    const otx_show_view *show;
     const otx_texture *textures; /* of the exemplars, by otx_source_of() */
     const otx_mip *mip;
     const otx_raster *raster;
@@ -26,20 +27,26 @@ typedef struct otx_seam_fit
     const float *low, *high; /* [grid->channels] no texel leaves these */
 } otx_seam_fit;
 
-/* One face's view of an edge. */
+/* One face's view of an edge: the side of a facet from corner 0 to corner 1,
+ * which the other face sees backwards. */
 typedef struct otx_seam_fit_side
 {
-    otx_vec2 uv, along; /* in the exemplar: the start, from there to the end */
+    int32_t face, exemplar;
+    int32_t corners[3];
+    double dx[3]; /* barycentric: along the edge, a sample's share of a texel */
+    double dy[3]; /* away from it, two texels */
+    bool layered;
+    /* Where it is not layered, in the exemplar: */
+    otx_vec2 uv, along; /* the start, from there to the end */
     otx_texture_probes probes;
 } otx_seam_fit_side;
 
 /* An edge, found out once for all texels by it. */
 typedef struct otx_seam_fit_edge
 {
-    const otx_texture *texture;
-    int32_t rim;      /* of the mip level; -1: none as yet */
+    int32_t rim;      /* of the mip; -1: none as yet */
     bool goes_on;     /* the mapping, on both sides of it */
-    otx_vec2 ends[2]; /* texels of the mip level */
+    otx_vec2 ends[2]; /* texels of the mip */
     double step;      /* the edge's share that the larger texel has */
     otx_seam_fit_side sides[2];
 } otx_seam_fit_edge;

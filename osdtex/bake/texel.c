@@ -84,6 +84,7 @@ fit_to_lookups(const picture *p, float *pixels)
         width, height, source->channels, p->pixels, p->owners};
     const otx_seam_fit fit = {
         .mapping = source->mapping,
+        .show = &source->show,
         .textures = source->textures,
         .mip = block->mip,
         .raster = &block->raster,

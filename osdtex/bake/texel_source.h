@@ -5,8 +5,7 @@
 #include "bake/layout.h"
 #include "exemplar/exemplar.h"
 #include "image/texture.h"
-#include "mapping/mapping.h"
-#include "mapping/source.h"
+#include "mapping/show.h"
 
 /* All but the colour are numbers at the texel's centre, which are not averaged,
  * in 32-bit floats. */
@@ -24,6 +23,7 @@ typedef enum otx_texel_kind
 typedef struct otx_texel_source
 {
     const otx_mapping *mapping;
+    otx_show_view show; /* the mapping, as it is asked */
     const otx_layout *layout;
     const otx_exemplar *exemplars;
     otx_texture textures[OTX_EXEMPLARS_MAX]; /* their linear pixels */

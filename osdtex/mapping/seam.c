@@ -4,6 +4,7 @@
  * are continuous there, and a chart that is torn inside one patch is not. */
 #include "mapping/seam.h"
 
+#include "mapping/show.h"
 #include "seam/difference.h"
 #include "seam/unit.h"
 
@@ -44,6 +45,7 @@ otx_seam_texel(
 typedef struct search
 {
     const otx_mapping *mapping;
+    otx_show_view show;
     const otx_exemplar *exemplars;
     const otx_level *leaf;
     const uint8_t *covered; /* [face_count] */
@@ -73,6 +75,102 @@ edge_sides(
     }
 }
 
+static bool
+is_layered(const search *s, int32_t edge)
+{
+    const int32_t *faces = s->leaf->edge_faces + 2 * (size_t)edge;
+
+    return otx_show_is_layered(&s->show, faces[0]) ||
+           otx_show_is_layered(&s->show, faces[1]);
+}
+
+/* A face's view of an edge, for the evaluator. */
+static otx_show_place
+place_on(
+    const search *s, int32_t edge, int side, int32_t corners[3], double at[3])
+{
+    const int32_t face = s->leaf->edge_faces[2 * (size_t)edge + side];
+
+    otx_seam_corners(s->leaf, edge, face, corners);
+    corners[2] = corners[1];
+    at[2] = 0.0;
+    return (otx_show_place){face, corners, at, NULL, NULL};
+}
+
+/* What term `index` of one side looks up at both ends of an edge, in texels,
+ * and its weights there. */
+static otx_show_term
+term_on(
+    const search *s, int32_t edge, int side, int32_t index, otx_vec2 texels[2],
+    double weights[2])
+{
+    int32_t corners[3];
+    double at[3];
+    const otx_show_place place = place_on(s, edge, side, corners, at);
+    otx_show_term term = {0};
+
+    for (int k = 0; k < 2; ++k)
+    {
+        const otx_exemplar *from;
+
+        at[0] = 1 - k;
+        at[1] = k;
+        term = otx_show_term_at(
+            &s->show, &place, otx_source_of(s->mapping, place.face), index);
+        from = &s->exemplars[term.exemplar];
+        weights[k] = term.weight;
+        texels[k] = (otx_vec2){
+            term.uv.x * from->match.width, term.uv.y * from->match.height};
+    }
+    return term;
+}
+
+/* Weights that differ by less are one, and terms that have less do not count:
+ * they are floats that were refined. */
+static const double WEIGHT_TOLERANCE = 1e-3;
+
+/* Whether every term of one side that shows along an edge is met by one of the
+ * other side. */
+static bool
+is_met(const search *s, int32_t edge, int side)
+{
+    const int32_t *faces = s->leaf->edge_faces + 2 * (size_t)edge;
+    const int32_t count = otx_show_term_count(&s->show, faces[side]);
+    const int32_t others = otx_show_term_count(&s->show, faces[1 - side]);
+
+    for (int32_t i = 0; i < count; ++i)
+    {
+        otx_vec2 a[2], b[2];
+        double v[2], w[2];
+        const otx_show_term here = term_on(s, edge, side, i, a, v);
+        bool met = fmax(v[0], v[1]) < WEIGHT_TOLERANCE;
+
+        for (int32_t j = 0; j < others && !met; ++j)
+        {
+            const otx_show_term there = term_on(s, edge, 1 - side, j, b, w);
+
+            met = here.exemplar == there.exemplar && here.mask == there.mask &&
+                  fabs(v[0] - w[0]) < WEIGHT_TOLERANCE &&
+                  fabs(v[1] - w[1]) < WEIGHT_TOLERANCE &&
+                  otx_seam_continuous(&s->exemplars[here.exemplar], a, b);
+        }
+        if (!met)
+            return false;
+    }
+    return true;
+}
+
+static bool
+is_continuous(
+    const search *s, int32_t edge, otx_vec2 sides[2][2],
+    const otx_exemplar *from[2])
+{
+    if (is_layered(s, edge))
+        return is_met(s, edge, 0) && is_met(s, edge, 1);
+    return from[0] == from[1] &&
+           otx_seam_continuous(from[0], sides[0], sides[1]);
+}
+
 /* Lists the seams; their samples are only counted. */
 static otx_status
 find_seams(otx_run *run, search *s, otx_seam_list *out)
@@ -94,8 +192,7 @@ find_seams(otx_run *run, search *s, otx_seam_list *out)
 
         out->interior_length += length;
         edge_sides(s, e, sides, from);
-        if (from[0] == from[1] &&
-            otx_seam_continuous(from[0], sides[0], sides[1]))
+        if (is_continuous(s, e, sides, from))
             continue;
         samples += otx_seam_sample_count(length);
         if (samples > INT32_MAX)
@@ -112,6 +209,25 @@ find_seams(otx_run *run, search *s, otx_seam_list *out)
     return OSDTEX_OK;
 }
 
+/* Colours along a side of an edge whose faces may have lookups. */
+static void
+sample_shown(
+    const search *s, int32_t edge, int side, int32_t count, float *colors)
+{
+    int32_t corners[3];
+    double at[3];
+    const otx_show_place place = place_on(s, edge, side, corners, at);
+
+    for (int32_t i = 0; i < count; ++i)
+    {
+        at[1] = (i + 0.5) / count;
+        at[0] = 1.0 - at[1];
+        otx_show_lab(
+            &s->show, s->exemplars, &place,
+            otx_source_of(s->mapping, place.face), colors + 3 * (size_t)i);
+    }
+}
+
 static otx_status
 sample_seam(void *context, int64_t index, otx_worker *worker)
 {
@@ -126,9 +242,13 @@ sample_seam(void *context, int64_t index, otx_worker *worker)
         return OSDTEX_ERROR_MEMORY;
     edge_sides(s, s->edges[index], sides, from);
     for (int f = 0; f < 2; ++f)
-        otx_seam_sample(
-            &from[f]->lab, from[f]->wrap_x, from[f]->wrap_y, sides[f], 0.0,
-            count, colors + 3 * (size_t)(f * count));
+        if (is_layered(s, s->edges[index]))
+            sample_shown(
+                s, s->edges[index], f, count, colors + 3 * (size_t)(f * count));
+        else
+            otx_seam_sample(
+                &from[f]->lab, from[f]->wrap_x, from[f]->wrap_y, sides[f], 0.0,
+                count, colors + 3 * (size_t)(f * count));
     for (int32_t i = 0; i < count; ++i)
     {
         const float *a = colors + 3 * (size_t)i;
@@ -180,6 +300,7 @@ otx_seam_collect(
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     search s = {
         .mapping = mapping,
+        .show = otx_show_of(mapping),
         .exemplars = exemplars,
         .leaf = otx_surface_leaf(mapping->surface),
         .texels_per_unit = otx_seam_texels_per_unit(mapping, exemplars),

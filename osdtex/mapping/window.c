@@ -7,6 +7,7 @@
 #include "mapping/window.h"
 
 #include "image/view.h"
+#include "mapping/show.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -58,6 +59,7 @@ typedef struct pose
 typedef struct lookup
 {
     const otx_mapping *mapping;
+    otx_show_view show;
     const otx_exemplar *exemplars;
     const otx_level *leaf;
     double texels_per_unit;
@@ -124,12 +126,14 @@ segment_distance(otx_vec2 a, otx_vec2 b)
     return otx_vec2_length(otx_vec2_lerp(a, b, t));
 }
 
-/* Colours the texels of the window that lie in a triangle of a face. */
+/* Colours the texels of the window that lie in a triangle of a face.
+ *
+ *   corners  of the level */
 static void
 fill_triangle(
-    const lookup *l, window *w, const otx_vec2 p[3], const otx_vec2 uv[3])
+    const lookup *l, window *w, int32_t face, const otx_vec2 p[3],
+    const int32_t corners[3])
 {
-    const otx_exemplar *from = &l->exemplars[w->source];
     const otx_vec2 e1 = otx_vec2_sub(p[1], p[0]);
     const otx_vec2 e2 = otx_vec2_sub(p[2], p[0]);
     const double area2 = otx_vec2_cross(e1, e2);
@@ -143,18 +147,14 @@ fill_triangle(
             i / SIDE + 0.5 - SIDE / 2 - p[0].y};
         const double s = otx_vec2_cross(at, e2) / area2;
         const double t = otx_vec2_cross(e1, at) / area2;
+        const double weights[3] = {1.0 - s - t, s, t};
+        const otx_show_place place = {face, corners, weights, NULL, NULL};
 
         if (w->valid[i] || s < 0.0 || t < 0.0 || s + t > 1.0)
             continue;
         w->valid[i] = 1;
         ++w->filled;
-        otx_view_value(
-            otx_view_of(&from->lab, from->wrap_x, from->wrap_y),
-            otx_vec2_add(
-                otx_vec2_scale(1.0 - s - t, uv[0]),
-                otx_vec2_add(
-                    otx_vec2_scale(s, uv[1]), otx_vec2_scale(t, uv[2]))),
-            w->colors[i]);
+        otx_show_lab(&l->show, l->exemplars, &place, w->source, w->colors[i]);
     }
 }
 
@@ -163,18 +163,14 @@ fill_face(
     const lookup *l, window *w, int32_t face, int32_t size,
     const otx_vec2 *corners)
 {
-    const otx_exemplar *from = &l->exemplars[w->source];
     const int32_t first = l->leaf->face_first[face];
 
     for (int32_t k = 1; k + 1 < size; ++k)
     {
         const otx_vec2 p[3] = {corners[0], corners[k], corners[k + 1]};
-        const otx_vec2 uv[3] = {
-            otx_seam_texel(l->mapping, from, first),
-            otx_seam_texel(l->mapping, from, first + k),
-            otx_seam_texel(l->mapping, from, first + k + 1)};
+        const int32_t of[3] = {first, first + k, first + k + 1};
 
-        fill_triangle(l, w, p, uv);
+        fill_triangle(l, w, face, p, of);
     }
 }
 
@@ -591,6 +587,7 @@ otx_window_measure(
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     lookup l = {
         .mapping = mapping,
+        .show = otx_show_of(mapping),
         .exemplars = exemplars,
         .leaf = otx_surface_leaf(mapping->surface),
         .texels_per_unit = otx_seam_texels_per_unit(mapping, exemplars),

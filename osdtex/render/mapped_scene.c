@@ -60,6 +60,7 @@ otx_scene_from_mapping(
         .face_verts = leaf->face_verts,
         .face_hole = leaf->face_hole,
         .uvs = mapping->uvs,
+        .lookups = mapping->lookups,
         .vert_normals = surface->normals,
         .texture_count = count,
         .textures = textures,

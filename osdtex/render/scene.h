@@ -7,7 +7,7 @@
 #define OTX_RENDER_SCENE_H
 
 #include "exemplar/exemplar.h"
-#include "mapping/mapping.h"
+#include "mapping/show.h"
 
 /* Scene-linear pixels; 1 and 2 channels are grey, alpha is not looked at. */
 typedef struct otx_scene_texture
@@ -25,6 +25,7 @@ typedef struct otx_scene
     const uint8_t *face_hole;  /* [face_count], 1 is not drawn; NULL none */
 
     const float *uvs; /* [corner_count * 2], NULL: no texture is shown */
+    const otx_lookups *lookups; /* of faces that show several; NULL nowhere */
     /* Smooth normals, any length: per corner before per vertex; with neither,
      * faces are flat. */
     const float *corner_normals; /* [corner_count * 3] or NULL */

@@ -150,23 +150,19 @@ move_on_plane(const otx_hit *hit, otx_vec3 eye, otx_vec3 forward, otx_vec3 step)
     return otx_vec3_mix(depth, step, -depth * slide / approach, to_hit);
 }
 
-/* The change of UV along `move`, which lies in the triangle's plane. */
-static otx_vec2
-uv_along(const otx_scene *scene, const otx_hit *hit, otx_vec3 move)
+/* The change of the hit's weights along `move`, which lies in the triangle's
+ * plane. */
+static void
+weights_along(const otx_hit *hit, otx_vec3 move, double out[3])
 {
     const otx_vec3 e1 = otx_vec3_sub(hit->points[1], hit->points[0]);
     const otx_vec3 e2 = otx_vec3_sub(hit->points[2], hit->points[0]);
     const otx_vec3 n = otx_vec3_cross(e1, e2);
     const double area_sq = otx_vec3_dot(n, n);
-    const double b1 = otx_vec3_dot(otx_vec3_cross(move, e2), n) / area_sq;
-    const double b2 = otx_vec3_dot(otx_vec3_cross(e1, move), n) / area_sq;
-    const otx_vec2 uv0 = corner_uv(scene, hit->corners[0]);
-    const otx_vec2 uv1 = corner_uv(scene, hit->corners[1]);
-    const otx_vec2 uv2 = corner_uv(scene, hit->corners[2]);
 
-    return otx_vec2_add(
-        otx_vec2_scale(b1, otx_vec2_sub(uv1, uv0)),
-        otx_vec2_scale(b2, otx_vec2_sub(uv2, uv0)));
+    out[1] = otx_vec3_dot(otx_vec3_cross(move, e2), n) / area_sq;
+    out[2] = otx_vec3_dot(otx_vec3_cross(e1, move), n) / area_sq;
+    out[0] = -out[1] - out[2];
 }
 
 static void
@@ -180,23 +176,29 @@ texture_color(const otx_shade *shade, const otx_hit *hit, float rgb[3])
 {
     const otx_scene *scene = shade->scene;
     const otx_camera_frame *frame = &shade->frame;
+    const otx_show_view show = {scene->uvs, scene->face_first, scene->lookups};
     const int32_t t = scene->face_texture ? scene->face_texture[hit->face] : 0;
     const double share = 1.0 / shade->options->samples;
+    float color[OTX_IMAGE_MAX_CHANNELS];
+    double dx[3], dy[3];
+    const otx_show_place place = {
+        hit->face, hit->corners, hit->weights, dx, dy};
 
     if (!scene->uvs || t < 0 || t >= scene->texture_count)
     {
         set_grey(0.5f, rgb);
         return;
     }
+    weights_along(
+        hit, move_on_plane(hit, frame->eye, frame->forward, frame->right), dx);
+    weights_along(
+        hit, move_on_plane(hit, frame->eye, frame->forward, frame->up), dy);
 
-    const otx_vec3 x = otx_vec3_scale(
-        share, move_on_plane(hit, frame->eye, frame->forward, frame->right));
-    const otx_vec3 y = otx_vec3_scale(
-        share, move_on_plane(hit, frame->eye, frame->forward, frame->up));
+    const int32_t channels = shade->textures[t].pyramid.levels[0].channels;
 
-    otx_texture_filter(
-        &shade->textures[t], hit_uv(scene, hit), uv_along(scene, hit, x),
-        uv_along(scene, hit, y), rgb);
+    otx_show_color(&show, shade->textures, &place, t, share, channels, color);
+    for (int32_t c = 0; c < 3; ++c)
+        rgb[c] = color[channels < 3 ? 0 : c];
 }
 
 static double

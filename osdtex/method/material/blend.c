@@ -263,6 +263,7 @@ store_uvs(
         uv = otx_vec2_sub(uv, shift);
         items[lookup * size + c].uv[0] = (float)uv.x;
         items[lookup * size + c].uv[1] = (float)uv.y;
+        items[lookup * size + c].fragment = -1;
     }
 }
 
@@ -291,8 +292,7 @@ note(const blender *b)
     otx_note(
         b->m->job->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
         "%d of %d faces, %.1f %% of the area, are mixed from what their "
-        "corners "
-        "look up, which only a bake shows: UVs alone are torn there",
+        "corners look up; an OBJ cannot say that: UVs alone are torn there",
         (int)tally->blended_faces, (int)b->level->face_count,
         100.0 * tally->blended_share);
 }
@@ -321,7 +321,7 @@ otx_blend_run(otx_material *m, otx_mapping *out)
         }
     }
     note(&b);
-    *lookups = (otx_lookups){b.first, b.items};
+    *lookups = (otx_lookups){.first = b.first, .items = b.items};
     if (m->tally.blended_faces > 0)
         out->lookups = lookups;
     return OSDTEX_OK;

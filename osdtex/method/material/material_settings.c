@@ -27,8 +27,8 @@ const otx_option otx_material_options[] = {
      "What replaces the texture around dislocations: on, patches that continue "
      "it; blend, the texture as each corner of a face would continue it, "
      "mixed, "
-     "which only a bake shows and which needs an exemplar that tiles; off, "
-     "nothing"},
+     "which bakes and pictures show but no OBJ can say, and which needs an "
+     "exemplar that tiles; off, nothing"},
     {"stretch", OTX_OPTION_REAL, FIELD(stretch), 1, 16, 2.5, NULL,
      "Factor by which the periodic texture may be squeezed or stretched before "
      "patches replace it"},

@@ -300,10 +300,11 @@ look_up_twice(otx_run *run, otx_mapping *mapping)
             items[first[f] + i] = (otx_lookup){
                 {mapping->uvs[2 * c] + (i < 4 ? 0.0f : 0.2f),
                  mapping->uvs[2 * c + 1]},
-                i < 4 ? 1.0f - x : x};
+                i < 4 ? 1.0f - x : x,
+                -1};
         }
     }
-    *lookups = (otx_lookups){first, items};
+    *lookups = (otx_lookups){.first = first, .items = items};
     mapping->lookups = lookups;
 }
 

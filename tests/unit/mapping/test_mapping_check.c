@@ -192,7 +192,7 @@ mix(fixture *f, float a, float b)
         first[i] = 8;
     for (int32_t i = 0; i < 8; ++i)
         items[i].weight = i < 4 ? a : b;
-    *lookups = (otx_lookups){first, items};
+    *lookups = (otx_lookups){.first = first, .items = items};
     f->mapping->lookups = lookups;
 }
 
