@@ -174,6 +174,56 @@ OSDTEX_API osdtex_status osdtex_mapping_write(
  * was created, findings. IO, MEMORY. */
 OSDTEX_API osdtex_status osdtex_report_write(
     osdtex_context *context, const osdtex_mapping *mapping, const char *path);
+
+/* Saves a mapping, from which osdtex_mapping_read() makes it again without
+ * mapping anew: to bake another layout, size or tile of it, or another picture
+ * in the place of its own. docs/formats-mapping.md says what is in the file,
+ * which is the same bytes for the same mapping. ARGUMENT (the cage or an
+ * exemplar is from no file), IO, MEMORY. */
+OSDTEX_API osdtex_status osdtex_mapping_save(
+    osdtex_context *context, const osdtex_mapping *mapping, const char *path);
+
+typedef struct osdtex_mapping_read_options
+{
+    size_t size;
+    const char *cage; /* another file of the same faces, such as another pose;
+                       * NULL: the one that the mapping names */
+    /* Pictures of the same size in the place of the mapping's own; NULL: its
+     * own. */
+    const char *exemplars[OSDTEX_EXEMPLARS_MAX];
+    const char *from; /* colour space of those; NULL: by the stated rules */
+    /* Of what is written; NULL and ANY: as of the mapping. */
+    const char *to;
+    osdtex_receiver receiver;
+    int32_t reserved;
+} osdtex_mapping_read_options;
+
+static inline osdtex_mapping_read_options
+osdtex_mapping_read_options_default(void)
+{
+    osdtex_mapping_read_options options = OSDTEX_ZERO;
+
+    options.size = sizeof options;
+    return options;
+}
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void osdtex_mapping_read_options_init(
+    osdtex_mapping_read_options *out, size_t bytes);
+
+/* Reads a saved mapping, and the cage and the exemplars that it names: where it
+ * says, or else beside the file itself. The handle holds all of them. ARGUMENT
+ * (other faces, a picture of another size), FORMAT, SUPPORT, and as
+ * osdtex_cage_read, osdtex_surface_refine and osdtex_exemplar_read. */
+OSDTEX_API osdtex_status osdtex_mapping_read(
+    osdtex_context *context, const char *path,
+    const osdtex_mapping_read_options *options, osdtex_mapping **out);
+
+/* Calls `visit` once, with what a saved mapping says of itself as JSON text
+ * that is gone afterwards: docs/formats-mapping.md names the keys. What it
+ * names need not be there. FORMAT, SUPPORT, IO, MEMORY. */
+OSDTEX_API osdtex_status osdtex_mapping_inspect(
+    osdtex_context *context, const char *path,
+    void (*visit)(void *user, const char *about), void *user);
 OSDTEX_API void osdtex_mapping_destroy(osdtex_mapping *mapping);
 
 OSDTEX_END_DECLS

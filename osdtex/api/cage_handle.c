@@ -184,6 +184,7 @@ build(
     how.boundary = options->boundary;
     how.fvar = options->fvar;
     /* Zero says nothing here, and the usual distance there. */
+    handle->weld = options->weld;
     how.weld = options->weld > 0.0   ? options->weld
                : options->weld < 0.0 ? 0.0
                                      : -1.0;

@@ -1,7 +1,8 @@
 /* exemplar_handle.c -- a picture from file or memory, its colours resolved. */
+#include "api/exemplar_handle.h"
+
 #include "analysis/analysis.h"
 #include "api/call.h"
-#include "api/handle.h"
 #include "api/picture_source.h"
 #include "base/hash.h"
 #include "file/picture.h"
@@ -73,7 +74,8 @@ static const double oddness_max = 1.15;
  * there are none along its sides. */
 static otx_status
 crop_to_periods(
-    otx_run *run, otx_where where, otx_exemplar *exemplar, bool *whole)
+    otx_run *run, otx_where where, otx_exemplar *exemplar,
+    otx_exemplar_cuts *cuts, bool *whole)
 {
     otx_analysis a;
     otx_period p;
@@ -91,6 +93,10 @@ crop_to_periods(
         run, OSDTEX_SEVERITY_INFO, "exemplar", where,
         "whole periods of the picture's lattice are %d x %d texels at (%d, %d)",
         p.width, p.height, p.x, p.y);
+    cuts->x += p.x;
+    cuts->y += p.y;
+    cuts->width = p.width;
+    cuts->height = p.height;
     return otx_exemplar_crop(
         run, exemplar, p.x, p.y, p.width, p.height, exemplar);
 }
@@ -116,6 +122,7 @@ make_tileable(otx_run *run, osdtex_tileable how, osdtex_exemplar *handle)
     const bool may_keep = how == OSDTEX_TILEABLE_AUTO;
     otx_exemplar source = handle->exemplar;
     const otx_where where = {source.source_path, 0, -1, -1};
+    otx_exemplar_cuts cuts = handle->cuts;
     otx_toroid toroid = {0};
     bool whole, good;
 
@@ -124,7 +131,7 @@ make_tileable(otx_run *run, osdtex_tileable how, osdtex_exemplar *handle)
     if (may_keep && (source.lab.width < OTX_TOROID_MIN_SIDE ||
                      source.lab.height < OTX_TOROID_MIN_SIDE))
         return OSDTEX_OK;
-    OTX_TRY(crop_to_periods(run, where, &source, &whole));
+    OTX_TRY(crop_to_periods(run, where, &source, &cuts, &whole));
     if (handle->exemplar.wrap_x && handle->exemplar.wrap_y &&
         source.lab.width == handle->exemplar.lab.width &&
         source.lab.height == handle->exemplar.lab.height)
@@ -144,6 +151,8 @@ make_tileable(otx_run *run, osdtex_tileable how, osdtex_exemplar *handle)
     if (!good && may_keep)
         return OSDTEX_OK;
     handle->info.made_tileable = 1;
+    handle->cuts = cuts;
+    handle->cuts.texels = toroid.map.texels;
     if (!toroid.map.texels)
     {
         handle->exemplar = source;
@@ -161,8 +170,9 @@ static const double opaque_share_min = 0.25;
  * as in lace, or the user says that it tiles as it is, they stay, and are told.
  */
 static otx_status
-avoid_transparent(otx_run *run, osdtex_wrap wrap, otx_exemplar *exemplar)
+avoid_transparent(otx_run *run, osdtex_wrap wrap, osdtex_exemplar *handle)
 {
+    otx_exemplar *exemplar = &handle->exemplar;
     const otx_where where = {exemplar->source_path, 0, -1, -1};
     const double texels =
         (double)exemplar->linear.width * exemplar->linear.height;
@@ -182,6 +192,10 @@ avoid_transparent(otx_run *run, osdtex_wrap wrap, otx_exemplar *exemplar)
             "from (%d, %d), counted from the lower left, are used, where there "
             "are none",
             100.0 * o.transparent, o.width, o.height, o.x, o.y);
+        handle->cuts.x = o.x;
+        handle->cuts.y = o.y;
+        handle->cuts.width = o.width;
+        handle->cuts.height = o.height;
         return otx_exemplar_crop(
             run, exemplar, o.x, o.y, o.width, o.height, exemplar);
     }
@@ -193,17 +207,60 @@ avoid_transparent(otx_run *run, osdtex_wrap wrap, otx_exemplar *exemplar)
     return OSDTEX_OK;
 }
 
-/* Builds the handle. `input` holds what is known of the pixels. */
+static otx_status
+keep_texels(otx_run *run, otx_exemplar_cuts *cuts)
+{
+    const size_t count = (size_t)cuts->width * (size_t)cuts->height;
+    int32_t *copy = OTX_NEW(run->arena, int32_t, count);
+
+    if (!copy)
+        return otx_fail_memory(run, "mapping");
+    memcpy(copy, cuts->texels, count * sizeof *copy);
+    cuts->texels = copy;
+    return OSDTEX_OK;
+}
+
+/* Does to a picture what was done to another one of its size. */
+static otx_status
+cut_alike(otx_run *run, const otx_exemplar_cuts *cuts, osdtex_exemplar *handle)
+{
+    otx_exemplar *e = &handle->exemplar;
+    const bool whole =
+        cuts->width == cuts->file_width && cuts->height == cuts->file_height;
+
+    if (e->linear.width != cuts->file_width ||
+        e->linear.height != cuts->file_height)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "mapping",
+            otx_where_file(e->source_path),
+            "the picture has %d x %d texels, and the mapping was made for one "
+            "of %d x %d; scale it to that size",
+            e->linear.width, e->linear.height, cuts->file_width,
+            cuts->file_height);
+    handle->cuts = *cuts;
+    if (cuts->texels)
+        OTX_TRY(keep_texels(run, &handle->cuts));
+    handle->info.made_tileable = !whole || cuts->texels != NULL;
+    if (!whole)
+        OTX_TRY(otx_exemplar_crop(
+            run, e, cuts->x, cuts->y, cuts->width, cuts->height, e));
+    return cuts->texels ? otx_exemplar_rearrange(run, e, cuts->texels, e)
+                        : OSDTEX_OK;
+}
+
+/* Builds the handle. `input` holds what is known of the pixels.
+ *
+ *   cuts  that are made instead of looked for; NULL none */
 static otx_status
 build(
     otx_call *call, otx_exemplar_input *input,
-    const osdtex_exemplar_options *options, const char *type, bool is_tiles,
-    osdtex_exemplar **out)
+    const osdtex_exemplar_options *options, const otx_exemplar_cuts *cuts,
+    const char *type, bool is_tiles, osdtex_exemplar **out)
 {
     otx_run *run = &call->run;
     osdtex_exemplar *handle = OTX_ZNEW(run->arena, osdtex_exemplar, 1);
     const otx_colour *colour;
-    int32_t made, width;
+    int32_t made, width, height;
 
     if (!handle)
         return otx_fail_memory(run, "colour");
@@ -216,10 +273,22 @@ build(
     handle->arena = run->arena;
     OTX_TRY(otx_exemplar_build(run, colour, input, &handle->exemplar));
     width = handle->exemplar.linear.width;
-    if (!is_tiles)
-        OTX_TRY(avoid_transparent(run, options->wrap, &handle->exemplar));
+    height = handle->exemplar.linear.height;
+    handle->cuts = (otx_exemplar_cuts){
+        .wrap = options->wrap,
+        .layer = options->layer ? otx_arena_strdup(run->arena, options->layer)
+                                : NULL,
+        .file_width = width,
+        .file_height = height,
+        .width = width,
+        .height = height};
+    if (!is_tiles && !cuts)
+        OTX_TRY(avoid_transparent(run, options->wrap, handle));
+    if (cuts)
+        OTX_TRY(cut_alike(run, cuts, handle));
     /* Who says that it does not tile wants it so. */
-    if (options->wrap != OSDTEX_WRAP_NO ||
+    else if (
+        options->wrap != OSDTEX_WRAP_NO ||
         options->tileable == OSDTEX_TILEABLE_MAKE)
         OTX_TRY(make_tileable(run, options->tileable, handle));
     made = handle->info.made_tileable;
@@ -263,7 +332,7 @@ keep_tiles(
 static otx_status
 read_exemplar(
     otx_call *call, const char *path, const osdtex_exemplar_options *options,
-    osdtex_exemplar **out)
+    const otx_exemplar_cuts *cuts, osdtex_exemplar **out)
 {
     otx_exemplar_input input = {0};
     osdtex_exemplar_options ours;
@@ -288,7 +357,8 @@ read_exemplar(
         ours.tileable = OSDTEX_TILEABLE_KEEP;
     }
     OTX_TRY(build(
-        call, &input, &ours, type_of(&picture), picture.tiles != NULL, out));
+        call, &input, &ours, cuts, type_of(&picture), picture.tiles != NULL,
+        out));
     return picture.tiles ? keep_tiles(&call->run, path, picture.tiles, *out)
                          : OSDTEX_OK;
 }
@@ -298,13 +368,23 @@ osdtex_exemplar_read(
     osdtex_context *context, const char *path,
     const osdtex_exemplar_options *options, osdtex_exemplar **out)
 {
+    return otx_exemplar_handle_read(context, path, options, NULL, out);
+}
+
+osdtex_status
+otx_exemplar_handle_read(
+    osdtex_context *context, const char *path,
+    const osdtex_exemplar_options *options, const otx_exemplar_cuts *cuts,
+    osdtex_exemplar **out)
+{
     otx_call call;
 
     if (!out)
         return OSDTEX_ERROR_ARGUMENT;
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "exemplar", &call));
-    return otx_call_end(&call, read_exemplar(&call, path, options, out), out);
+    return otx_call_end(
+        &call, read_exemplar(&call, path, options, cuts, out), out);
 }
 
 static otx_status
@@ -324,7 +404,7 @@ create_exemplar(
     input.alpha_is_premultiplied = true;
     input.source.from = ours.from;
     input.source.is_float = true;
-    return build(call, &input, &ours, NULL, false, out);
+    return build(call, &input, &ours, NULL, NULL, false, out);
 }
 
 osdtex_status

@@ -15,6 +15,7 @@ struct osdtex_cage
 {
     otx_arena *arena;
     otx_cage cage;
+    double weld; /* as it was asked for */
     osdtex_cage_info info;
 };
 
@@ -33,10 +34,24 @@ struct osdtex_image
     osdtex_image_info info;
 };
 
+/* How the picture of an exemplar came out of its file: enough to do it again,
+ * and to do the same to other pictures of the same size. */
+typedef struct otx_exemplar_cuts
+{
+    osdtex_wrap wrap;  /* as it was asked for */
+    const char *layer; /* likewise; NULL */
+    int32_t file_width, file_height;
+    /* The rectangle that was kept, and which texel of it each texel is; NULL:
+     * the picture is the rectangle as it is. */
+    int32_t x, y, width, height;
+    const int32_t *texels; /* [width * height] */
+} otx_exemplar_cuts;
+
 struct osdtex_exemplar
 {
     otx_arena *arena;
     otx_exemplar exemplar;
+    otx_exemplar_cuts cuts;
     osdtex_exemplar_info info;
 };
 
@@ -57,6 +72,8 @@ struct osdtex_mapping
     const void *settings;
     otx_map_request request;
     uint64_t seed;
+    const char *saved_path; /* the file that it was read from; NULL: it was
+                             * made here, and `figures` say how */
     osdtex_mapping_info info;
 };
 

@@ -1,6 +1,6 @@
 /* mapping_handle.c -- running a method, writing what it made. */
+#include "api/mapping_handle.h"
 #include "api/call.h"
-#include "api/handle.h"
 #include "api/map_input.h"
 #include "api/map_resolve.h"
 #include "api/method_settings.h"
@@ -35,8 +35,8 @@ choose_method(otx_run *run, const char *name, osdtex_mapping *handle)
                : otx_resolve_method(run, name, &handle->method);
 }
 
-static osdtex_mapping_info
-info_of(const osdtex_mapping *handle)
+osdtex_mapping_info
+otx_mapping_handle_info(const osdtex_mapping *handle)
 {
     return (osdtex_mapping_info){
         .method = handle->method->name,
@@ -117,7 +117,7 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
     run->seed = ours.seed;
     job = job_of(run, handle);
     OTX_TRY(otx_method_map(handle->method, &job, &handle->mapping));
-    handle->info = info_of(handle);
+    handle->info = otx_mapping_handle_info(handle);
     *out = handle;
     return OSDTEX_OK;
 }

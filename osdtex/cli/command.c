@@ -56,6 +56,7 @@ static const otx_flag_id map_flags[] = {
     OTX_FLAG_UP,
     OTX_FLAG_SHOW,
     OTX_FLAG_FOLLOW,
+    OTX_FLAG_SAVE,
     OTX_FLAG_COUNT};
 
 static const otx_flag_id bake_flags[] = {
@@ -109,6 +110,7 @@ static const otx_flag_id bake_flags[] = {
     OTX_FLAG_VERSION,
     OTX_FLAG_SHOW,
     OTX_FLAG_FOLLOW,
+    OTX_FLAG_SAVE,
     OTX_FLAG_COUNT};
 
 static const otx_flag_id tiles_flags[] = {
@@ -150,13 +152,13 @@ static const otx_flag_id tiles_flags[] = {
     OTX_FLAG_COUNT};
 
 static const otx_flag_id render_flags[] = {
-    OTX_FLAG_OUTPUT,       OTX_FLAG_CAMERA,      OTX_FLAG_TURN,
-    OTX_FLAG_SIZE,         OTX_FLAG_SAMPLES,     OTX_FLAG_SHOW,
-    OTX_FLAG_CONSTRAINTS,  OTX_FLAG_FOLLOW,      OTX_FLAG_SYMMETRY,
-    OTX_FLAG_UNLIT,        OTX_FLAG_COLORCONFIG, OTX_FLAG_THREADS,
-    OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_REPLACE,     OTX_FLAG_DRY_RUN,
-    OTX_FLAG_VERBOSE,      OTX_FLAG_QUIET,       OTX_FLAG_HELP,
-    OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
+    OTX_FLAG_FROM,     OTX_FLAG_OUTPUT,       OTX_FLAG_CAMERA,
+    OTX_FLAG_TURN,     OTX_FLAG_SIZE,         OTX_FLAG_SAMPLES,
+    OTX_FLAG_SHOW,     OTX_FLAG_CONSTRAINTS,  OTX_FLAG_FOLLOW,
+    OTX_FLAG_SYMMETRY, OTX_FLAG_UNLIT,        OTX_FLAG_COLORCONFIG,
+    OTX_FLAG_THREADS,  OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_REPLACE,
+    OTX_FLAG_DRY_RUN,  OTX_FLAG_VERBOSE,      OTX_FLAG_QUIET,
+    OTX_FLAG_HELP,     OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
 
 static const otx_flag_id field_flags[] = {
     OTX_FLAG_OUTPUT,   OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOLLOW,
@@ -230,7 +232,8 @@ static const otx_command commands[] = {
      "NAME.usda and\nNAME.mtlx for what OBJ and MTL cannot say. Render it "
      "subdivided, with the UV\nrule that NAME_cage.obj states.",
      "osdtex bake models/cages/creature.obj models/exemplars/pebbles_tile.png "
-     "\\\n    -o pebbles.obj --resolution 2048\n"
+     "\\\n    -o pebbles.obj --resolution 2048 --save pebbles.osdtex\n"
+     "osdtex bake --from pebbles.osdtex -o large.obj --resolution 8192\n"
      "osdtex bake shirt.obj weave.exr -o out/shirt.obj --uvs atlas \\\n"
      "    --texels-per-unit 40 --preview-png\n",
      "DIR/NAME.obj: what is written is called after NAME, and beside it",
@@ -283,7 +286,7 @@ static const otx_command commands[] = {
      "osdtex run shirts.json --task 3\n", NULL, run_flags, otx_run_command_run,
      false},
     {"info", "[FILE]", 0, 1,
-     "say what a cage, a picture or a colour configuration is",
+     "say what a cage, picture, mapping or colour configuration is",
      "Of an OBJ: faces, tags, components, boundary, size. Of a picture: size, "
      "type,\ncolour space as it would be resolved, whether it tiles. Of an "
      "OpenColorIO\nconfiguration, and without FILE of the one in force: its "

@@ -194,10 +194,17 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "layer or part of an EXR that is the picture (default: plain R, G, B "
          "of any part, else what is called beauty, rgba, combined or the "
          "like)"},
+    [OTX_FLAG_SAVE] =
+        {"save", 0, OTX_FLAG_GROUP_MAIN, "NAME.osdtex",
+         "also save the mapping: --from NAME.osdtex makes from it, without "
+         "mapping anew, other bakes, tiles, sizes and pictures"},
     [OTX_FLAG_FROM] =
-        {"from", 0, OTX_FLAG_GROUP_COLOUR, "SPACE",
+        {"from", 0, OTX_FLAG_GROUP_COLOUR, "SPACE|NAME.osdtex",
          "colour space of the exemplar (default: what the file says, else "
-         "sRGB for integers and scene_linear for floats)"},
+         "sRGB for integers and scene_linear for floats); or a saved mapping "
+         "to start from, with the cage and the picture that it names, or with "
+         "CAGE (the same faces in another pose) and EXEMPLAR (another picture "
+         "of the same size) in their places"},
     [OTX_FLAG_TO] =
         {"to", 0, OTX_FLAG_GROUP_COLOUR, "SPACE",
          "colour space of the textures that are written (default: role "
@@ -537,6 +544,11 @@ otx_flag_parse(
             return false;
         }
         id = c >= ID_BASE ? c - ID_BASE : id_of_letter(c);
+        if (id == OTX_FLAG_FROM && otx_value_has_extension(optarg, ".osdtex"))
+        {
+            out->saved = optarg;
+            continue;
+        }
         out->text[id] = optarg ? optarg : "";
         if (!optarg && is_optional(&flags[id]) && is_number(argv[optind]))
             out->text[id] = argv[optind++];

@@ -52,6 +52,7 @@ typedef enum otx_flag_id
     OTX_FLAG_UP,
     OTX_FLAG_PREVIEW,
     OTX_FLAG_JSON_REPORT,
+    OTX_FLAG_SAVE,
     OTX_FLAG_SCHEME,
     OTX_FLAG_BOUNDARY,
     OTX_FLAG_FVAR,
@@ -140,6 +141,7 @@ typedef struct otx_flag_values
     int also_count;
     const char *operands[OTX_FLAG_OPERANDS_MAX];
     int operand_count;
+    const char *saved;      /* NAME.osdtex of --from; NULL none */
     const otx_flag_id *ids; /* the flags of the command */
     const char *job; /* file of the job that this is a task of; NULL none */
     otx_flag_spool spools[OTX_FLAG_SPOOLS_MAX];

@@ -50,6 +50,8 @@ otx_guard_named(
     for (int i = 0; i < values->also_count && status == OSDTEX_OK; ++i)
         status =
             add_file(context, deep, out, otx_also_flags_file(values->also[i]));
+    if (status == OSDTEX_OK)
+        status = add_file(context, deep, out, values->saved);
     return status;
 }
 

@@ -4,6 +4,7 @@
 #include "cli/spool.h"
 #include "cli/value.h"
 
+#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -198,6 +199,70 @@ run_on_configuration(const otx_flag_values *values)
     return otx_session_end(&session, inspect_configuration(session.context));
 }
 
+static void
+print_saved_exemplar(const json_t *e)
+{
+    const json_t *size = json_object_get(e, "size");
+
+    printf(
+        "  exemplar    %s, hash %s: %d x %d%s\n",
+        json_string_value(json_object_get(e, "path")),
+        json_is_string(json_object_get(e, "hash"))
+            ? json_string_value(json_object_get(e, "hash"))
+            : "none",
+        (int)json_integer_value(json_array_get(size, 0)),
+        (int)json_integer_value(json_array_get(size, 1)),
+        json_is_true(json_object_get(e, "rearranged")) ? ", made to tile" : "");
+}
+
+/* What the library has checked. */
+static void
+print_saved(void *path, const char *about)
+{
+    json_t *root = json_loads(about, 0, NULL);
+    const json_t *cage = json_object_get(root, "cage");
+    size_t k;
+    json_t *exemplar;
+
+    if (!root)
+        return;
+    printf(
+        "%s: saved mapping, format %d, of osdtex %s\n", (const char *)path,
+        (int)json_integer_value(json_object_get(root, "format")),
+        json_string_value(json_object_get(root, "program")));
+    printf(
+        "  cage        %s at level %d, faces %s\n",
+        json_string_value(json_object_get(cage, "path")),
+        (int)json_integer_value(json_object_get(cage, "level")),
+        json_string_value(json_object_get(cage, "topology")));
+    json_array_foreach(json_object_get(root, "exemplars"), k, exemplar)
+        print_saved_exemplar(exemplar);
+    printf(
+        "  mapping     %d patches by %s, %g scene units wide, seed %s\n",
+        (int)json_integer_value(json_object_get(root, "patch_count")),
+        json_string_value(json_object_get(root, "method")),
+        json_number_value(json_object_get(root, "scale")),
+        json_string_value(json_object_get(root, "seed")));
+    json_decref(root);
+}
+
+static osdtex_status
+inspect(
+    osdtex_context *context, const char *path, const char *name,
+    const osdtex_cage_options *cage, const osdtex_exemplar_options *exemplar)
+{
+    char title[4096];
+
+    if (otx_value_has_extension(path, ".osdtex"))
+    {
+        snprintf(title, sizeof title, "%s", path);
+        return osdtex_mapping_inspect(context, path, print_saved, title);
+    }
+    return otx_inputs_is_picture(path) || otx_inputs_is_binary(path)
+               ? inspect_exemplar(context, path, name, exemplar)
+               : inspect_cage(context, path, name, cage);
+}
+
 int
 otx_info_command_run(const otx_flag_values *values)
 {
@@ -216,8 +281,6 @@ otx_info_command_run(const otx_flag_values *values)
     if (!otx_session_begin(&session, values))
         return session.exit_code;
     status =
-        otx_inputs_is_picture(path) || otx_inputs_is_binary(path)
-            ? inspect_exemplar(session.context, path, name, &exemplar_options)
-            : inspect_cage(session.context, path, name, &cage_options);
+        inspect(session.context, path, name, &cage_options, &exemplar_options);
     return otx_session_end(&session, status);
 }

@@ -30,7 +30,8 @@ run(const otx_command *command, int argc, char **argv)
         print_version();
         return OTX_EXIT_OK;
     }
-    if (values.operand_count < command->operands_min ||
+    /* A saved mapping names them. */
+    if (values.operand_count < (values.saved ? 0 : command->operands_min) ||
         values.operand_count > command->operands_max)
         return otx_session_refuse(
             "osdtex %s takes %s; see osdtex %s --help", command->name,

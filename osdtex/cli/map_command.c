@@ -64,6 +64,22 @@ look_ahead(otx_session *session, job *j)
     return status;
 }
 
+/* The mapping of --from, with what stands in the place of its own. */
+static osdtex_status
+read_saved(otx_session *session, job *j)
+{
+    osdtex_mapping_read_options options = osdtex_mapping_read_options_default();
+    const otx_flag_values *values = j->request.values;
+
+    options.cage = values->operands[0];
+    options.exemplars[0] = values->operands[1];
+    options.from = values->text[OTX_FLAG_FROM];
+    options.to = j->request.exemplar_options.to;
+    options.receiver = j->request.exemplar_options.receiver;
+    return osdtex_mapping_read(
+        session->context, values->saved, &options, &j->mapping);
+}
+
 /* Rendered before anything is written, so that what can go wrong in it leaves
  * no output behind. */
 static osdtex_status
@@ -117,6 +133,9 @@ write_outputs(otx_session *session, const job *j)
     if (status == OSDTEX_OK && j->request.report)
         status = osdtex_report_write(
             session->context, j->mapping, j->request.report);
+    if (status == OSDTEX_OK && j->request.save)
+        status =
+            osdtex_mapping_save(session->context, j->mapping, j->request.save);
     return status;
 }
 
@@ -132,6 +151,29 @@ say_bake(const job *j)
         j->forecast.uvs == OSDTEX_BAKE_UVS_OWN ? "the cage's own UVs"
                                                : "an atlas",
         j->forecast.bake_density);
+}
+
+static void
+say_outputs(const job *j)
+{
+    const otx_map_request *r = &j->request;
+
+    if (r->maps)
+        printf(
+            "into          %s, %s, %s%s\n", r->obj, r->mtl, r->exrs[0],
+            r->also.count > 0 ? " and so on" : "");
+    if (r->bakes && !r->values->saved)
+        say_bake(j);
+    if (r->bakes && r->values->saved)
+        printf(
+            "baked into    %s, %s and their textures of %d texels\n",
+            r->cage_obj, r->cage_mtl, r->bake_options.resolution);
+    if (r->preview)
+        printf("preview       %s\n", r->preview);
+    if (r->report)
+        printf("report        %s\n", r->report);
+    if (r->save)
+        printf("saved as      %s\n", r->save);
 }
 
 static void
@@ -158,16 +200,18 @@ say_plan(const job *j)
             r->also.materials[k][0] ? " on the material " : "",
             r->also.materials[k],
             r->map_options.mask ? ", where the mask says" : "");
-    if (r->maps)
-        printf(
-            "into          %s, %s, %s%s\n", r->obj, r->mtl, r->exrs[0],
-            r->also.count > 0 ? " and so on" : "");
-    if (r->bakes)
-        say_bake(j);
-    if (r->preview)
-        printf("preview       %s\n", r->preview);
-    if (r->report)
-        printf("report        %s\n", r->report);
+    say_outputs(j);
+}
+
+static void
+say_saved_plan(const job *j)
+{
+    const osdtex_mapping_info *m = osdtex_mapping_describe(j->mapping);
+
+    printf(
+        "would take    %s: %d faces in %d patches, by %s\n",
+        j->request.values->saved, m->face_count, m->patch_count, m->method);
+    say_outputs(j);
 }
 
 static void
@@ -192,24 +236,16 @@ say_done(otx_session *session, const job *j)
         otx_session_say(session, "wrote %s", r->preview);
     if (r->report)
         otx_session_say(session, "wrote %s", r->report);
+    if (r->save)
+        otx_session_say(session, "saved %s", r->save);
 }
 
 static osdtex_status
-texture(otx_session *session, job *j)
+map(otx_session *session, job *j)
 {
-    osdtex_status status = read_inputs(session, j);
+    osdtex_status status = osdtex_surface_refine(
+        session->context, j->cage, &j->request.surface_options, &j->surface);
 
-    if (status == OSDTEX_OK)
-        status = look_ahead(session, j);
-    if (status == OSDTEX_OK && j->request.values->text[OTX_FLAG_DRY_RUN])
-    {
-        say_plan(j);
-        return OSDTEX_OK;
-    }
-    if (status == OSDTEX_OK)
-        status = osdtex_surface_refine(
-            session->context, j->cage, &j->request.surface_options,
-            &j->surface);
     otx_session_lap(session, "refined");
     j->request.map_options.surface = j->surface;
     if (status == OSDTEX_OK)
@@ -217,6 +253,25 @@ texture(otx_session *session, job *j)
             session->context, j->cage, j->exemplar, &j->request.map_options,
             &j->mapping);
     otx_session_lap(session, "mapped");
+    return status;
+}
+
+static osdtex_status
+texture(otx_session *session, job *j)
+{
+    const bool is_saved = j->request.values->saved != NULL;
+    osdtex_status status =
+        is_saved ? read_saved(session, j) : read_inputs(session, j);
+
+    if (status == OSDTEX_OK && !is_saved)
+        status = look_ahead(session, j);
+    if (status == OSDTEX_OK && j->request.values->text[OTX_FLAG_DRY_RUN])
+    {
+        (is_saved ? say_saved_plan : say_plan)(j);
+        return OSDTEX_OK;
+    }
+    if (status == OSDTEX_OK && !is_saved)
+        status = map(session, j);
     if (status == OSDTEX_OK)
         status = render_preview(session, j);
     otx_session_lap(session, "rendered");

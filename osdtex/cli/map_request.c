@@ -191,7 +191,7 @@ cage_comes_first(const otx_map_request *r)
 {
     const char *cage = r->values->operands[0];
 
-    if (!otx_inputs_is_picture(cage))
+    if (!cage || !otx_inputs_is_picture(cage))
         return true;
     otx_session_refuse(
         "'%s' is a picture, where the cage, an OBJ, is expected: osdtex %s "
@@ -217,6 +217,42 @@ pictures_are_apart(const otx_map_request *r)
             return false;
         }
     return true;
+}
+
+/* What was decided when the mapping was saved cannot be asked for again. */
+static bool
+saved_stays(const otx_map_request *r)
+{
+    static const otx_flag_id decided[] = {
+        OTX_FLAG_METHOD,      OTX_FLAG_SCALE,         OTX_FLAG_LEVEL,
+        OTX_FLAG_SEED,        OTX_FLAG_SET,           OTX_FLAG_TILE_LEVEL,
+        OTX_FLAG_ALSO,        OTX_FLAG_MASK,          OTX_FLAG_FIRST_PATCH,
+        OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOLLOW,        OTX_FLAG_GENERATORS,
+        OTX_FLAG_SCHEME,      OTX_FLAG_BOUNDARY,      OTX_FLAG_FVAR,
+        OTX_FLAG_MATCH_SPACE, OTX_FLAG_MATCH_IN,      OTX_FLAG_WRAP,
+        OTX_FLAG_TILEABLE,    OTX_FLAG_EXEMPLAR_CLASS};
+
+    for (size_t i = 0; r->values->saved && i < sizeof decided / sizeof *decided;
+         ++i)
+        if (r->values->text[decided[i]])
+        {
+            otx_session_refuse(
+                "--%s was decided when the mapping was saved; leave it out, or "
+                "map anew",
+                otx_flag_at(decided[i])->name);
+            return false;
+        }
+    return true;
+}
+
+static bool
+parse_save(otx_map_request *r)
+{
+    r->save = r->values->text[OTX_FLAG_SAVE];
+    if (!r->save || otx_value_has_extension(r->save, ".osdtex"))
+        return true;
+    otx_session_refuse("--save writes a NAME.osdtex, not '%s'", r->save);
+    return false;
 }
 
 bool
@@ -256,7 +292,8 @@ otx_map_request_parse(
             "the standard output: --json-report NAME.json");
         return false;
     }
-    return cage_comes_first(r) && pictures_are_apart(r);
+    return saved_stays(r) && parse_save(r) && cage_comes_first(r) &&
+           pictures_are_apart(r);
 }
 
 void
@@ -273,6 +310,7 @@ otx_map_request_outputs(const otx_map_request *r, otx_path_list *out)
         otx_bake_outputs_list(r->cage_obj, &r->bake_options, out);
     otx_path_list_add(out, r->preview);
     otx_path_list_add(out, r->report);
+    otx_path_list_add(out, r->save);
 }
 
 bool
@@ -283,6 +321,8 @@ otx_map_request_is_done(
         r->maps ? r->obj : NULL, r->maps ? r->mtl : NULL, r->preview,
         r->report};
 
+    if (r->save && access(r->save, F_OK) != 0)
+        return false;
     for (int i = 0; i < 4; ++i)
         if (files[i] && !otx_up_to_date_check(files[i], hash))
             return false;

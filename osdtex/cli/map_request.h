@@ -26,7 +26,7 @@ typedef struct otx_map_request
     char obj[OTX_MAP_PATH_BYTES], mtl[OTX_MAP_PATH_BYTES];
     char exrs[OSDTEX_EXEMPLARS_MAX][OTX_MAP_PATH_BYTES]; /* "" none */
     char cage_obj[OTX_MAP_PATH_BYTES], cage_mtl[OTX_MAP_PATH_BYTES];
-    const char *preview, *report; /* NULL none */
+    const char *preview, *report, *save; /* NULL none */
 } otx_map_request;
 
 /* False after saying what is wrong. Borrows the values. */

@@ -20,6 +20,10 @@ typedef struct job
     osdtex_render_options picture;
     osdtex_field_options field_options;
 
+    const char *saved; /* a mapping instead of a model; NULL */
+    const char *from;
+
+    osdtex_mapping *mapping;
     osdtex_model *model;
     osdtex_image *image;
     osdtex_cage *cage; /* the model as a plain mesh; NULL without a field */
@@ -57,12 +61,20 @@ parse(job *j, const otx_flag_values *values)
     *j = (job){
         .path = values->operands[0],
         .output = values->text[OTX_FLAG_OUTPUT],
+        .saved = values->saved,
+        .from = values->text[OTX_FLAG_FROM],
         .dry_run = values->text[OTX_FLAG_DRY_RUN] != NULL};
     if (!j->output || (!otx_value_has_extension(j->output, ".png") &&
                        !otx_value_has_extension(j->output, ".exr")))
     {
         otx_session_refuse(
             "osdtex render writes a picture: -o NAME.png or NAME.exr");
+        return false;
+    }
+    if (j->from)
+    {
+        otx_session_refuse(
+            "osdtex render takes --from NAME.osdtex, not a colour space");
         return false;
     }
     return otx_picture_flags_parse(values, &j->picture) &&
@@ -112,12 +124,27 @@ draw(otx_session *session, job *j)
 }
 
 static osdtex_status
+read_saved(osdtex_context *context, job *j)
+{
+    osdtex_mapping_read_options options = osdtex_mapping_read_options_default();
+    osdtex_status status;
+
+    options.cage = j->path;
+    j->path = j->saved;
+    status = osdtex_mapping_read(context, j->saved, &options, &j->mapping);
+    return status == OSDTEX_OK
+               ? osdtex_model_create(context, j->mapping, &j->model)
+               : status;
+}
+
+static osdtex_status
 render(otx_session *session, job *j)
 {
     osdtex_status status =
-        osdtex_model_read(session->context, j->path, &j->model);
+        j->saved ? read_saved(session->context, j)
+                 : osdtex_model_read(session->context, j->path, &j->model);
 
-    if (status == OSDTEX_OK && j->shows_field)
+    if (status == OSDTEX_OK && j->shows_field && !j->saved)
         status = join_field(session->context, j);
     if (status != OSDTEX_OK)
         return status;
@@ -135,6 +162,7 @@ drop(const job *j)
 {
     osdtex_image_destroy(j->image);
     osdtex_model_destroy(j->model);
+    osdtex_mapping_destroy(j->mapping);
     osdtex_field_destroy(j->field);
     osdtex_surface_destroy(j->surface);
     osdtex_cage_destroy(j->cage);

@@ -11,11 +11,11 @@
 /* Flags that say how the work is done and where its results go, not what they
  * are: all others are part of the job. --colorconfig is, by what it holds. */
 static const otx_flag_id apart[] = {
-    OTX_FLAG_OUTPUT,  OTX_FLAG_PREVIEW,      OTX_FLAG_JSON_REPORT,
-    OTX_FLAG_THREADS, OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_COLORCONFIG,
-    OTX_FLAG_DRY_RUN, OTX_FLAG_UPDATE,       OTX_FLAG_REPLACE,
-    OTX_FLAG_VERBOSE, OTX_FLAG_QUIET,        OTX_FLAG_HELP,
-    OTX_FLAG_VERSION, OTX_FLAG_UDIM};
+    OTX_FLAG_OUTPUT,      OTX_FLAG_PREVIEW, OTX_FLAG_JSON_REPORT,
+    OTX_FLAG_SAVE,        OTX_FLAG_THREADS, OTX_FLAG_MEMORY_LIMIT,
+    OTX_FLAG_COLORCONFIG, OTX_FLAG_DRY_RUN, OTX_FLAG_UPDATE,
+    OTX_FLAG_REPLACE,     OTX_FLAG_VERBOSE, OTX_FLAG_QUIET,
+    OTX_FLAG_HELP,        OTX_FLAG_VERSION, OTX_FLAG_UDIM};
 
 bool
 otx_up_to_date_is_part(otx_flag_id id)
@@ -93,6 +93,9 @@ put_job(FILE *out, osdtex_context *context, const otx_flag_values *values)
 {
     char colour[OSDTEX_HASH_BYTES];
 
+    /* What a saved mapping names is not known here. */
+    if (values->saved)
+        return false;
     fprintf(out, "osdtex %s\n", osdtex_build());
     if (!put_files(out, context, values) ||
         osdtex_colour_hash(context, colour) != OSDTEX_OK)

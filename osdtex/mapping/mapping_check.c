@@ -26,6 +26,7 @@ typedef struct checker
     const otx_exemplar *exemplars;
     int32_t exemplar_count;
     const char *method;
+    const char *path; /* of the file it was read from; NULL: `method` made it */
 } checker;
 
 /* A leaf face as the cage's face that it is of; -1 none. */
@@ -42,6 +43,11 @@ where(const checker *c, int32_t face)
 static otx_status
 fail(const checker *c, int32_t face, const char *what)
 {
+    if (c->path)
+        return otx_fail(
+            c->run, OSDTEX_ERROR_FORMAT, "mapping",
+            (otx_where){c->path, 0, where(c, face).face, -1},
+            "the saved mapping is damaged: %s", what);
     return otx_fail(
         c->run, OSDTEX_ERROR_INTERNAL, "map", where(c, face),
         "the method '%s' returned a mapping that is not valid: %s; please "
@@ -160,7 +166,8 @@ check_lookups(const checker *c, int32_t face)
             OTX_TRY(check_uv(c, face, items[k * size + i].uv));
             sum += (double)items[k * size + i].weight;
         }
-        if (!(fabs(sum - 1.0) <= WEIGHT_ERROR))
+        if (c->mapping->lookups->layering == OTX_LAYERING_MEAN &&
+            !(fabs(sum - 1.0) <= WEIGHT_ERROR))
             return fail(c, face, "the weights of its lookups are not 1 in sum");
     }
     return OSDTEX_OK;
@@ -240,6 +247,20 @@ check_winding(const checker *c)
     return OSDTEX_OK;
 }
 
+static otx_status
+check(const checker *c)
+{
+    OTX_TRY(check_shape(c));
+    OTX_TRY(check_sources(c));
+    for (int32_t f = 0; f < c->leaf->face_count; ++f)
+    {
+        OTX_TRY(check_patch(c, f));
+        OTX_TRY(check_uvs(c, f));
+        OTX_TRY(check_lookups(c, f));
+    }
+    return check_winding(c);
+}
+
 otx_status
 otx_mapping_check(
     otx_run *run, const otx_mapping *mapping, const otx_surface *surface,
@@ -255,13 +276,23 @@ otx_mapping_check(
         .method = method,
     };
 
-    OTX_TRY(check_shape(&c));
-    OTX_TRY(check_sources(&c));
-    for (int32_t f = 0; f < c.leaf->face_count; ++f)
-    {
-        OTX_TRY(check_patch(&c, f));
-        OTX_TRY(check_uvs(&c, f));
-        OTX_TRY(check_lookups(&c, f));
-    }
-    return check_winding(&c);
+    return check(&c);
+}
+
+otx_status
+otx_mapping_check_file(
+    otx_run *run, const otx_mapping *mapping, const otx_surface *surface,
+    const otx_exemplar *exemplars, int32_t exemplar_count, const char *path)
+{
+    const checker c = {
+        .run = run,
+        .mapping = mapping,
+        .surface = surface,
+        .leaf = otx_surface_leaf(surface),
+        .exemplars = exemplars,
+        .exemplar_count = exemplar_count,
+        .path = path,
+    };
+
+    return check(&c);
 }

@@ -35,4 +35,10 @@ otx_status otx_mapping_check(
     otx_run *run, const otx_mapping *mapping, const otx_surface *surface,
     const otx_exemplar *exemplars, int32_t exemplar_count, const char *method);
 
+/* The same of a mapping that was read from the file `path`: FORMAT, since the
+ * file is damaged. */
+otx_status otx_mapping_check_file(
+    otx_run *run, const otx_mapping *mapping, const otx_surface *surface,
+    const otx_exemplar *exemplars, int32_t exemplar_count, const char *path);
+
 #endif

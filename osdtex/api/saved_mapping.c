@@ -1,0 +1,580 @@
+/* saved_mapping.c -- mappings written to files, and read back. */
+#include "api/call.h"
+#include "api/exemplar_handle.h"
+#include "api/mapping_handle.h"
+#include "api/method_settings.h"
+#include "api/saved_about.h"
+#include "file/atomic_file.h"
+#include "file/tensors.h"
+#include "mapping/mapping_check.h"
+
+#include <assert.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char STAGE[] = "mapping";
+
+/* Vectors are arrays of doubles in a file. */
+static_assert(sizeof(otx_vec2) == 16 && sizeof(otx_vec3) == 24, "packed");
+
+/* ---- saving ---- */
+
+/* The items of lookups, which a file has as three arrays. */
+static otx_status
+split_lookups(
+    otx_run *run, const otx_lookups *l, int64_t count, float **values,
+    int32_t **fragments)
+{
+    *values = OTX_NEW(run->scratch, float, 3 * count);
+    *fragments = OTX_NEW(run->scratch, int32_t, count);
+    if (!*values || !*fragments)
+        return otx_fail_memory(run, STAGE);
+    for (int64_t i = 0; i < count; ++i)
+    {
+        (*values)[3 * i] = l->items[i].uv[0];
+        (*values)[3 * i + 1] = l->items[i].uv[1];
+        (*values)[3 * i + 2] = l->items[i].weight;
+        (*fragments)[i] = l->items[i].fragment;
+    }
+    return OSDTEX_OK;
+}
+
+/* Exemplar and patch of each. */
+static otx_status
+list_fragments(otx_run *run, const otx_lookups *l, otx_tensors *out)
+{
+    int32_t *list = OTX_NEW(run->scratch, int32_t, 2 * l->fragment_count);
+
+    if (!list)
+        return otx_fail_memory(run, STAGE);
+    for (int32_t i = 0; i < l->fragment_count; ++i)
+    {
+        if (l->fragments[i].mask)
+            return otx_fail(
+                run, OSDTEX_ERROR_SUPPORT, STAGE, OTX_NOWHERE,
+                "a mapping whose fragments have masks cannot be saved");
+        list[2 * i] = l->fragments[i].exemplar;
+        list[2 * i + 1] = l->fragments[i].patch;
+    }
+    otx_tensors_add(
+        out, "fragments", OTX_TENSOR_I32, l->fragment_count, 2, list);
+    return OSDTEX_OK;
+}
+
+/* Arrays in the order of their types' sizes, so that all are aligned. */
+static otx_status
+gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
+{
+    const otx_mapping *m = &mapping->mapping;
+    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_cage *cage = m->surface->cage;
+    const otx_lookups *l = m->lookups;
+    const int64_t count = l ? l->first[leaf->face_count] : 0;
+    int32_t *fragments = NULL;
+    float *values = NULL;
+
+    otx_tensors_add(out, "cage_origin", OTX_TENSOR_F64, 3, 0, cage->origin);
+    if (m->guide)
+        otx_tensors_add(
+            out, "guide", OTX_TENSOR_F64, leaf->face_count, 3,
+            m->guide->directions);
+    if (m->lattice)
+    {
+        otx_tensors_add(
+            out, "cells", OTX_TENSOR_F64, leaf->corner_count, 2,
+            m->lattice->cells);
+        otx_tensors_add(
+            out, "defects", OTX_TENSOR_F64, m->lattice->defect_count, 3,
+            m->lattice->defects);
+    }
+    if (l)
+    {
+        OTX_TRY(split_lookups(run, l, count, &values, &fragments));
+        otx_tensors_add(
+            out, "lookup_first", OTX_TENSOR_I64, (int64_t)leaf->face_count + 1,
+            0, l->first);
+    }
+    otx_tensors_add(
+        out, "cage_points", OTX_TENSOR_F32, cage->vert_count, 3, cage->points);
+    otx_tensors_add(out, "uvs", OTX_TENSOR_F32, leaf->corner_count, 2, m->uvs);
+    if (l)
+        otx_tensors_add(out, "lookups", OTX_TENSOR_F32, count, 3, values);
+    otx_tensors_add(
+        out, "face_cage", OTX_TENSOR_I32, leaf->face_count, 0, leaf->face_cage);
+    otx_tensors_add(
+        out, "face_first", OTX_TENSOR_I32, (int64_t)leaf->face_count + 1, 0,
+        leaf->face_first);
+    otx_tensors_add(
+        out, "face_patch", OTX_TENSOR_I32, leaf->face_count, 0, m->face_patch);
+    if (l)
+    {
+        otx_tensors_add(
+            out, "lookup_fragment", OTX_TENSOR_I32, count, 0, fragments);
+        OTX_TRY(list_fragments(run, l, out));
+    }
+    for (int32_t k = 0; k < mapping->source_count; ++k)
+    {
+        const otx_exemplar_cuts *c = &mapping->sources[k]->cuts;
+        char name[OTX_TENSOR_NAME_BYTES];
+
+        snprintf(name, sizeof name, "exemplar_texels_%d", (int)k);
+        if (c->texels)
+            otx_tensors_add(
+                out, name, OTX_TENSOR_I32, (int64_t)c->width * c->height, 0,
+                c->texels);
+    }
+    if (m->lattice)
+        otx_tensors_add(
+            out, "cells_open", OTX_TENSOR_U8, leaf->face_count, 0,
+            m->lattice->open);
+    if (m->patch_exemplar)
+        otx_tensors_add(
+            out, "patch_exemplar", OTX_TENSOR_U8, m->patch_count, 0,
+            m->patch_exemplar);
+    return OSDTEX_OK;
+}
+
+static otx_status
+save(otx_run *run, const osdtex_mapping *mapping, const char *path)
+{
+    otx_tensors *tensors = OTX_ZNEW(run->scratch, otx_tensors, 1);
+    otx_atomic_file_set *set;
+    const char *temporary;
+
+    if (!mapping || !path)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "no mapping or no path is given");
+    if (!tensors)
+        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_saved_about_print(run, mapping, &tensors->about));
+    OTX_TRY(gather(run, mapping, tensors));
+    OTX_TRY(otx_atomic_file_begin(run, run->scratch, &set));
+    OTX_TRY(otx_atomic_file_add(run, set, path, &temporary));
+    OTX_TRY(otx_tensors_write(run, tensors, temporary, path));
+    return otx_atomic_file_commit(run, set, true);
+}
+
+osdtex_status
+osdtex_mapping_save(
+    osdtex_context *context, const osdtex_mapping *mapping, const char *path)
+{
+    otx_call call;
+
+    OTX_TRY(otx_call_begin(context, STAGE, &call));
+    return otx_call_drop(&call, save(&call.run, mapping, path));
+}
+
+/* ---- reading ---- */
+
+/* A file being read. The handles of what it names are held by the mapping and
+ * dropped here. */
+typedef struct loader
+{
+    otx_call *call;
+    const char *path;
+    osdtex_mapping_read_options options;
+    otx_tensors *tensors;
+    otx_saved_about about;
+    osdtex_mapping *mapping;
+    osdtex_cage *cage;
+    osdtex_surface *surface;
+    osdtex_exemplar *exemplars[OTX_EXEMPLARS_MAX];
+} loader;
+
+static otx_status
+damaged(const loader *l, const char *what)
+{
+    return otx_fail(
+        &l->call->run, OSDTEX_ERROR_FORMAT, STAGE, otx_where_file(l->path),
+        "the saved mapping is damaged: %s", what);
+}
+
+/* A file that the mapping names: where it says, else beside the mapping. */
+static otx_status
+find_file(const loader *l, const char *named, const char **out)
+{
+    const char *slash = strrchr(l->path, '/'), *last = strrchr(named, '/');
+    const int folder = slash ? (int)(slash + 1 - l->path) : 0;
+    char beside[PATH_MAX];
+
+    *out = named;
+    if (access(named, F_OK) == 0)
+        return OSDTEX_OK;
+    for (int i = 0; i < 2; ++i)
+    {
+        const char *name = i == 0 || !last ? named : last + 1;
+
+        if (snprintf(beside, sizeof beside, "%.*s%s", folder, l->path, name) <
+                (int)sizeof beside &&
+            access(beside, F_OK) == 0)
+        {
+            *out = otx_arena_strdup(l->call->run.arena, beside);
+            return *out ? OSDTEX_OK : otx_fail_memory(&l->call->run, STAGE);
+        }
+    }
+    return OSDTEX_OK;
+}
+
+/* Rest positions may differ: UVs go with the faces. */
+static void
+compare_points(const loader *l)
+{
+    const otx_cage *cage = &l->cage->cage;
+    const otx_tensor *points = otx_tensors_find(
+        l->tensors, "cage_points", OTX_TENSOR_F32, cage->vert_count, 3);
+
+    if (points && memcmp(
+                      points->data, cage->points,
+                      3 * sizeof(float) * (size_t)cage->vert_count) != 0)
+        otx_note(
+            &l->call->run, OSDTEX_SEVERITY_INFO, STAGE,
+            otx_where_file(l->cage->info.path),
+            "the cage has the faces that were mapped in another pose; the "
+            "texture goes with them");
+}
+
+static otx_status
+read_cage(loader *l)
+{
+    osdtex_context *context = l->call->context;
+    osdtex_surface_options level = osdtex_surface_options_default();
+    const char *path = l->options.cage, *topology;
+
+    if (!path)
+        OTX_TRY(find_file(l, l->about.cage_path, &path));
+    OTX_TRY(osdtex_cage_read(context, path, &l->about.cage, &l->cage));
+    OTX_TRY(otx_saved_topology(&l->call->run, &l->cage->cage, &topology));
+    if (strcmp(topology, l->about.topology) != 0)
+        return otx_fail(
+            &l->call->run, OSDTEX_ERROR_ARGUMENT, STAGE, otx_where_file(path),
+            "the cage has other faces than the one that was mapped; map it "
+            "anew, or give the one that the mapping was made for");
+    compare_points(l);
+    level.level = l->about.level;
+    return osdtex_surface_refine(context, l->cage, &level, &l->surface);
+}
+
+static otx_status
+check_texels(const loader *l, const otx_exemplar_cuts *cuts)
+{
+    const int64_t count = (int64_t)cuts->width * cuts->height;
+
+    for (int64_t i = 0; i < count; ++i)
+        if (cuts->texels[i] < 0 || cuts->texels[i] >= count)
+            return damaged(l, "an exemplar's texels are out of range");
+    return OSDTEX_OK;
+}
+
+static otx_status
+read_exemplar(loader *l, int32_t k)
+{
+    otx_saved_exemplar *s = &l->about.exemplars[k];
+    const char *path = l->options.exemplars[k];
+    const bool swapped = path != NULL;
+    const otx_tensor *texels;
+    char name[OTX_TENSOR_NAME_BYTES];
+
+    if (!path)
+        OTX_TRY(find_file(l, s->path, &path));
+    snprintf(name, sizeof name, "exemplar_texels_%d", (int)k);
+    texels = otx_tensors_find(
+        l->tensors, name, OTX_TENSOR_I32,
+        (int64_t)s->cuts.width * s->cuts.height, 0);
+    if (s->rearranged && !texels)
+        return damaged(l, "an exemplar's texels are missing");
+    s->cuts.texels = s->rearranged ? texels->data : NULL;
+    if (s->rearranged)
+        OTX_TRY(check_texels(l, &s->cuts));
+    s->options.tileable = OSDTEX_TILEABLE_KEEP;
+    /* Another picture says itself what its colours are. */
+    if (swapped)
+        s->options.from = l->options.from;
+    if (l->options.to || l->options.receiver != OSDTEX_RECEIVER_ANY)
+    {
+        s->options.to = l->options.to;
+        s->options.receiver = l->options.receiver;
+    }
+    OTX_TRY(otx_exemplar_handle_read(
+        l->call->context, path, &s->options, &s->cuts, &l->exemplars[k]));
+    if (!swapped && s->hash && l->exemplars[k]->exemplar.source_hash &&
+        strcmp(s->hash, l->exemplars[k]->exemplar.source_hash) != 0)
+        otx_note(
+            &l->call->run, OSDTEX_SEVERITY_WARNING, STAGE, otx_where_file(path),
+            "the picture has changed since the mapping was saved; the mapping "
+            "is applied to what it is now");
+    l->exemplars[k]->exemplar.wrap_x = s->wrap_x;
+    l->exemplars[k]->exemplar.wrap_y = s->wrap_y;
+    return OSDTEX_OK;
+}
+
+/* What the mapping is measured by: compared at as many texels to a unit. */
+static otx_status
+list_exemplars(const loader *l)
+{
+    otx_run *run = &l->call->run;
+    osdtex_mapping *m = l->mapping;
+    otx_exemplar *list = OTX_NEW(run->arena, otx_exemplar, OTX_EXEMPLARS_MAX);
+
+    if (!list)
+        return otx_fail_memory(run, STAGE);
+    m->exemplars = list;
+    m->source_count = l->about.exemplar_count;
+    m->exemplar = l->exemplars[0];
+    for (int32_t k = 0; k < m->source_count; ++k)
+    {
+        const otx_saved_exemplar *s = &l->about.exemplars[k];
+        const otx_exemplar *from = &l->exemplars[k]->exemplar;
+
+        m->sources[k] = l->exemplars[k];
+        OTX_TRY(otx_call_hold(run, l->exemplars[k]->arena));
+        list[k] = *from;
+        if (from->match.width != s->match_width ||
+            from->match.height != s->match_height)
+            OTX_TRY(otx_exemplar_resize(
+                run, from, s->match_width, s->match_height, &list[k]));
+    }
+    return OSDTEX_OK;
+}
+
+static const void *
+need(
+    const loader *l, const char *name, otx_tensor_type type, int64_t rows,
+    int64_t columns)
+{
+    const otx_tensor *t =
+        otx_tensors_find(l->tensors, name, type, rows, columns);
+
+    return t ? t->data : NULL;
+}
+
+static otx_status
+join_lookups(const loader *l, const otx_level *leaf, otx_mapping *out)
+{
+    otx_run *run = &l->call->run;
+    const int64_t *first = need(
+        l, "lookup_first", OTX_TENSOR_I64, (int64_t)leaf->face_count + 1, 0);
+    const int64_t count = first ? first[leaf->face_count] : 0;
+    const float *values = need(l, "lookups", OTX_TENSOR_F32, count, 3);
+    const int32_t *of = need(l, "lookup_fragment", OTX_TENSOR_I32, count, 0);
+    const otx_tensor *list =
+        otx_tensors_find(l->tensors, "fragments", OTX_TENSOR_I32, -1, 2);
+    otx_lookups *lookups = OTX_ZNEW(run->arena, otx_lookups, 1);
+    otx_fragment *fragments;
+    otx_lookup *items;
+
+    if (!first)
+        return OSDTEX_OK;
+    if (count < 0 || !values || !of || !list || list->rows > INT32_MAX ||
+        first[0] != 0)
+        return damaged(l, "its lookups do not fit together");
+    items = OTX_NEW(run->arena, otx_lookup, count);
+    fragments = OTX_ZNEW(run->arena, otx_fragment, list->rows);
+    if (!lookups || !items || !fragments)
+        return otx_fail_memory(run, STAGE);
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        if (first[f + 1] < first[f] || first[f + 1] > count ||
+            (first[f + 1] - first[f]) % otx_level_face_size(leaf, f) != 0)
+            return damaged(l, "its lookups do not fit the faces");
+    for (int64_t i = 0; i < count; ++i)
+    {
+        items[i] = (otx_lookup){
+            {values[3 * i], values[3 * i + 1]}, values[3 * i + 2], of[i]};
+        if (of[i] < -1 || of[i] >= list->rows)
+            return damaged(l, "a lookup has no fragment");
+    }
+    for (int32_t i = 0; i < (int32_t)list->rows; ++i)
+    {
+        const int32_t *row = (const int32_t *)list->data + 2 * (size_t)i;
+
+        fragments[i] = (otx_fragment){.exemplar = row[0], .patch = row[1]};
+        if (row[0] < 0 || row[0] >= l->about.exemplar_count)
+            return damaged(l, "a fragment has no exemplar");
+    }
+    *lookups = (otx_lookups){
+        first, items, (otx_layering)l->about.layering, (int32_t)list->rows,
+        fragments};
+    out->lookups = lookups;
+    return OSDTEX_OK;
+}
+
+/* What is only shown, and may be missing. */
+static otx_status
+join_fields(const loader *l, const otx_level *leaf, otx_mapping *out)
+{
+    otx_run *run = &l->call->run;
+    otx_guide *guide = OTX_ZNEW(run->arena, otx_guide, 1);
+    otx_cell_map *cells = OTX_ZNEW(run->arena, otx_cell_map, 1);
+
+    if (!guide || !cells)
+        return otx_fail_memory(run, STAGE);
+    *guide = (otx_guide){
+        need(l, "guide", OTX_TENSOR_F64, leaf->face_count, 3),
+        l->about.guide_symmetry, l->about.guide_angle};
+    *cells = (otx_cell_map){
+        need(l, "cells", OTX_TENSOR_F64, leaf->corner_count, 2),
+        need(l, "cells_open", OTX_TENSOR_U8, leaf->face_count, 0),
+        need(l, "defects", OTX_TENSOR_F64, l->about.defect_count, 3),
+        l->about.defect_count};
+    if (guide->directions && guide->symmetry > 0)
+        out->guide = guide;
+    if (cells->cells && cells->open && cells->defects)
+        out->lattice = cells;
+    return OSDTEX_OK;
+}
+
+static otx_status
+join_arrays(const loader *l, otx_mapping *out)
+{
+    const otx_level *leaf = otx_surface_leaf(&l->surface->surface);
+    otx_run *run = &l->call->run;
+    const float *uvs = need(l, "uvs", OTX_TENSOR_F32, leaf->corner_count, 2);
+    const int32_t *patch =
+        need(l, "face_patch", OTX_TENSOR_I32, leaf->face_count, 0);
+
+    if (!uvs || !patch)
+        return damaged(l, "its arrays do not fit the cage");
+    *out = (otx_mapping){
+        .surface = &l->surface->surface,
+        .scale = l->about.scale,
+        .uvs = OTX_NEW(run->arena, float, 2 * (size_t)leaf->corner_count),
+        .face_patch = OTX_NEW(run->arena, int32_t, leaf->face_count),
+        .patch_count = l->about.patch_count,
+        .exemplar_count = l->about.exemplar_count,
+        .patch_exemplar =
+            need(l, "patch_exemplar", OTX_TENSOR_U8, l->about.patch_count, 0),
+    };
+    if (!out->uvs || !out->face_patch)
+        return otx_fail_memory(run, STAGE);
+    memcpy(out->uvs, uvs, 2 * sizeof *uvs * (size_t)leaf->corner_count);
+    memcpy(out->face_patch, patch, sizeof *patch * (size_t)leaf->face_count);
+    if (l->about.exemplar_count > 1 && !out->patch_exemplar)
+        return damaged(l, "it does not say which exemplar its patches show");
+    OTX_TRY(join_lookups(l, leaf, out));
+    return join_fields(l, leaf, out);
+}
+
+static otx_status
+join(const loader *l)
+{
+    otx_run *run = &l->call->run;
+    osdtex_mapping *m = l->mapping;
+
+    m->method = otx_method_find(l->about.method);
+    if (!m->method)
+        return otx_fail(
+            run, OSDTEX_ERROR_SUPPORT, STAGE, otx_where_file(l->path),
+            "the mapping was made by the method '%.60s', which this version "
+            "does not have",
+            l->about.method);
+    m->arena = run->arena;
+    m->surface = l->surface;
+    m->seed = l->about.seed;
+    m->request.scale = l->about.scale;
+    m->request.first_face = -1;
+    m->saved_path = otx_arena_strdup(run->arena, l->path);
+    OTX_TRY(otx_call_hold(run, l->surface->arena));
+    OTX_TRY(list_exemplars(l));
+    OTX_TRY(otx_method_settings_read(
+        run, m->method, l->about.settings, l->about.setting_count,
+        &m->exemplar->exemplar, &l->cage->cage, &m->settings));
+    OTX_TRY(join_arrays(l, &m->mapping));
+    OTX_TRY(otx_mapping_check_file(
+        run, &m->mapping, &l->surface->surface, m->exemplars, m->source_count,
+        l->path));
+    m->info = otx_mapping_handle_info(m);
+    return OSDTEX_OK;
+}
+
+static otx_status
+load(loader *l)
+{
+    otx_run *run = &l->call->run;
+
+    l->tensors = OTX_ZNEW(run->arena, otx_tensors, 1);
+    l->mapping = OTX_ZNEW(run->arena, osdtex_mapping, 1);
+    if (!l->tensors || !l->mapping)
+        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_tensors_read(run, l->path, l->tensors));
+    OTX_TRY(otx_saved_about_parse(run, l->path, l->tensors->about, &l->about));
+    OTX_TRY(read_cage(l));
+    for (int32_t k = 0; k < l->about.exemplar_count; ++k)
+        OTX_TRY(read_exemplar(l, k));
+    return join(l);
+}
+
+static otx_status
+read_mapping(
+    otx_call *call, const char *path,
+    const osdtex_mapping_read_options *options, osdtex_mapping **out)
+{
+    loader *l = OTX_ZNEW(call->run.scratch, loader, 1);
+    otx_status status;
+
+    if (!l)
+        return otx_fail_memory(&call->run, STAGE);
+    if (!path)
+        return otx_fail(
+            &call->run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "no path of a saved mapping is given");
+    l->call = call;
+    l->path = path;
+    l->options = osdtex_mapping_read_options_default();
+    OTX_TRY(
+        otx_call_options(&call->run, &l->options, sizeof l->options, options));
+    status = load(l);
+    for (int32_t k = 0; k < OTX_EXEMPLARS_MAX; ++k)
+        osdtex_exemplar_destroy(l->exemplars[k]);
+    osdtex_surface_destroy(l->surface);
+    osdtex_cage_destroy(l->cage);
+    if (status == OSDTEX_OK)
+        *out = l->mapping;
+    return status;
+}
+
+osdtex_status
+osdtex_mapping_read(
+    osdtex_context *context, const char *path,
+    const osdtex_mapping_read_options *options, osdtex_mapping **out)
+{
+    otx_call call;
+
+    if (!out)
+        return OSDTEX_ERROR_ARGUMENT;
+    *out = NULL;
+    OTX_TRY(otx_call_begin(context, STAGE, &call));
+    return otx_call_end(&call, read_mapping(&call, path, options, out), out);
+}
+
+static otx_status
+inspect(
+    otx_run *run, const char *path,
+    void (*visit)(void *user, const char *about), void *user)
+{
+    otx_tensors *tensors = OTX_ZNEW(run->scratch, otx_tensors, 1);
+    otx_saved_about *about = OTX_ZNEW(run->scratch, otx_saved_about, 1);
+
+    if (!path || !visit)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "no path or nobody to tell is given");
+    if (!tensors || !about)
+        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_tensors_read(run, path, tensors));
+    OTX_TRY(otx_saved_about_parse(run, path, tensors->about, about));
+    visit(user, tensors->about);
+    return OSDTEX_OK;
+}
+
+osdtex_status
+osdtex_mapping_inspect(
+    osdtex_context *context, const char *path,
+    void (*visit)(void *user, const char *about), void *user)
+{
+    otx_call call;
+
+    OTX_TRY(otx_call_begin(context, STAGE, &call));
+    return otx_call_drop(&call, inspect(&call.run, path, visit, user));
+}

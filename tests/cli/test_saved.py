@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+"""Saved mappings: what comes back from them, on a farm, with another picture,
+another pose, and from damaged files.
+
+    test_saved.py OSDTEX
+"""
+
+import json
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+from program import CAGES, EXEMPLARS, ROOT, ProgramTest, main
+
+CAGE = CAGES / "torus.obj"
+EXEMPLAR = EXEMPLARS / "pebbles_tile.png"
+BAKE = ("--uvs", "atlas", "--resolution", "128")
+
+
+class Saved(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.saved = self.folder / "m.osdtex"
+
+    def save(self, *more, cage=CAGE, exemplar=EXEMPLAR):
+        result = self.run_program(
+            "bake", cage, exemplar, "-o", self.folder / "one.obj", "--level",
+            "1", *BAKE, "--save", self.saved, *more)
+        self.assert_exit(result, 0)
+
+    def bake_from(self, *more, name="two.obj", saved=None):
+        return self.run_program(
+            "bake", "--from", saved or self.saved, *more, "-o",
+            self.folder / name, *BAKE)
+
+    def pixels(self, name):
+        """The chunks of an EXR: all behind its header, which has the name of
+        the job in it."""
+        data = (self.folder / name).read_bytes()
+        return data[data.index(b"wrapmodes"):]
+
+    def test_bakes_again_as_it_was(self):
+        self.save()
+        self.assert_exit(
+            self.bake_from("--save", self.folder / "again.osdtex"), 0)
+        self.assert_exit(self.bake_from(name="three.obj"), 0)
+        self.assertEqual(
+            self.pixels("one.1001.exr")[-4000:],
+            self.pixels("two.1001.exr")[-4000:])
+        self.assertEqual(
+            (self.folder / "two.1001.exr").read_bytes(),
+            (self.folder / "three.1001.exr").read_bytes())
+        self.assertEqual(
+            self.saved.read_bytes(),
+            (self.folder / "again.osdtex").read_bytes())
+
+    def test_tiles_one_by_one_are_the_tiles_of_one_job(self):
+        self.save()
+        how = ("--uvs", "atlas", "--resolution", "128", "--texels-per-unit",
+               "40")
+        for name, more in (("whole", ()), ("part", ("--udim", "1002"))):
+            result = self.run_program(
+                "bake", "--from", self.saved, "-o",
+                self.folder / f"{name}.obj", *how, *more)
+            self.assert_exit(result, 0)
+        self.assertEqual(
+            (self.folder / "whole.1002.exr").read_bytes(),
+            (self.folder / "part.1002.exr").read_bytes())
+
+    def test_another_picture_of_the_size(self):
+        self.save()
+        self.assert_exit(self.bake_from(CAGE, EXEMPLARS / "gravel_tile.png"), 0)
+        self.assertNotEqual(
+            self.pixels("one.1001.exr")[-4000:],
+            self.pixels("two.1001.exr")[-4000:])
+
+    def test_another_pose(self):
+        self.save()
+        pose = self.folder / "pose.obj"
+        pose.write_text(re.sub(
+            r"(?m)^v (\S+)", lambda m: f"v {2 * float(m[1])}",
+            CAGE.read_text()))
+        result = self.bake_from(pose)
+        self.assert_exit(result, 0)
+        self.assertIn("another pose", result.stderr)
+
+    def test_files_beside_it(self):
+        """On another machine the folders are others."""
+        there = self.folder / "there"
+        there.mkdir()
+        for file in (CAGE, EXEMPLAR):
+            shutil.copy(file, there)
+        self.save(cage=there / CAGE.name, exemplar=there / EXEMPLAR.name)
+        here = self.folder / "here"
+        there.rename(here)
+        shutil.copy(self.saved, here / "m.osdtex")
+        self.assert_exit(self.bake_from(saved=here / "m.osdtex"), 0)
+
+    def test_what_is_refused(self):
+        self.save()
+        for more, words in (
+                ((CAGES / "sphere.obj",), "other faces"),
+                ((CAGE, ROOT / "docs/gallery/creature.png"), "was made for one"),
+                (("--scale", "3"), "decided when the mapping was saved")):
+            result = self.bake_from(*more)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn(words, result.stderr)
+
+    def test_damaged_files(self):
+        self.save()
+        whole = self.saved.read_bytes()
+        length = struct.unpack("<Q", whole[:8])[0]
+        header = json.loads(whole[8:8 + length])
+        header["uvs"]["shape"][0] += 1
+        text = json.dumps(header).encode()
+        about = json.loads(header["__metadata__"]["osdtex"])
+        about["format"] = 2
+        header["__metadata__"]["osdtex"] = json.dumps(about)
+        later = json.dumps(header).encode()
+        patches = json.loads(whole[8:8 + length])["face_patch"]["data_offsets"]
+        wild = bytearray(whole)
+        wild[8 + length + patches[0]:8 + length + patches[0] + 4] = b"\xff" * 3 + b"\x7f"
+        for data in (
+                b"", whole[:7], whole[:-1], b"\xff" * 8 + whole[8:],
+                struct.pack("<Q", len(text)) + text + whole[8 + length:],
+                struct.pack("<Q", len(later)) + later + whole[8 + length:],
+                bytes(wild), b"\0" * 4096):
+            self.saved.write_bytes(data)
+            for command in (("bake", "-o", self.folder / "x.obj", *BAKE,
+                             "--from"), ("info",)):
+                result = self.run_program(*command, self.saved)
+                if command == ("info",) and data == bytes(wild):
+                    continue
+                self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertFalse((self.folder / "x.1001.exr").exists())
+
+    def test_info(self):
+        self.save()
+        result = self.run_program("info", self.saved)
+        self.assert_exit(result, 0)
+        self.assertIn("saved mapping, format 1", result.stdout)
+        self.assertIn("patches by hierarchical", result.stdout)
+
+    def test_python_reads_it(self):
+        """By the example in the documentation."""
+        self.need(modules=("numpy",))
+        self.save()
+        text = (ROOT / "docs/formats-mapping.md").read_text()
+        code = re.search(r"```python\n(.*?)```", text, re.S)[1]
+        script = self.folder / "example.py"
+        script.write_text(code)
+        result = subprocess.run(
+            [sys.executable, script, self.saved], capture_output=True,
+            text=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout.split()[0], "hierarchical")
+
+
+if __name__ == "__main__":
+    main()
