@@ -30,7 +30,7 @@ CHANGED = {
     "weld": "0.1", "layer": "beauty", "normals": None, "units": "mm",
     "up": "z",
 }
-APART = {"output", "preview", "json-report", "threads", "memory-limit",
+APART = {"output", "preview", "json-report", "save", "threads", "memory-limit",
          "colorconfig", "dry-run", "update", "replace", "verbose", "quiet",
          "help", "version", "udim"}
 
