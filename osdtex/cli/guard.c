@@ -3,6 +3,7 @@
 #include "cli/guard.h"
 
 #include "cli/also_flags.h"
+#include "cli/spool.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -209,7 +210,7 @@ check_owners(const otx_flag_values *values, const otx_path_list *outputs)
 
     if (values->text[OTX_FLAG_REPLACE] || values->operand_count == 0)
         return OSDTEX_OK;
-    osdtex_outputs_source(values->operands[0], source);
+    osdtex_outputs_source(otx_spool_name(values, values->operands[0]), source);
     for (int i = 0; i < outputs->count; ++i)
     {
         const char *path = outputs->items[i].name;
@@ -267,5 +268,6 @@ otx_guard_check_flags(otx_session *session, const otx_flag_values *values)
     otx_path_list_free(&outputs);
     if (status != OSDTEX_OK)
         return status;
-    return osdtex_outputs_mark(session->context, NULL, values->operands[0]);
+    return osdtex_outputs_mark(
+        session->context, NULL, otx_spool_name(values, values->operands[0]));
 }

@@ -3,6 +3,7 @@
 #include "cli/guard.h"
 #include "cli/map_request.h"
 #include "cli/session.h"
+#include "cli/spool.h"
 #include "cli/up_to_date.h"
 
 #include <stdio.h>
@@ -315,7 +316,8 @@ mark_outputs(otx_session *session, job *j)
 
     j->has_hash = otx_up_to_date_job(session->context, values, j->hash);
     return osdtex_outputs_mark(
-        session->context, j->has_hash ? j->hash : NULL, values->operands[0]);
+        session->context, j->has_hash ? j->hash : NULL,
+        otx_spool_name(values, values->operands[0]));
 }
 
 static int
