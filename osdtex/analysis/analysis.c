@@ -50,8 +50,7 @@ measure_turn(
     const int32_t w = 2 * map.reach + 1;
     int32_t best = 0;
 
-    if (!turned)
-        return otx_fail_memory(s->run, "exemplar");
+    OTX_TRY(otx_run_ok(s->run));
     for (int32_t y = 0; y < n; ++y)
         for (int32_t x = 0; x < n; ++x)
             turned[y * n + x] = quarters == 2

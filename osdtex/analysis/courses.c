@@ -37,8 +37,7 @@ measure(otx_run *run, const otx_image *lab, bool upright, profile *p)
     p->mean = OTX_ZNEW(run->scratch, double, size);
     p->variance = OTX_ZNEW(run->scratch, double, size);
     p->cost = OTX_NEW(run->scratch, double, size);
-    if (!p->mean || !p->variance || !p->cost)
-        return otx_fail_memory(run, "exemplar");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < size; ++i)
     {
         for (int32_t k = 0; k < along; ++k)
@@ -171,8 +170,7 @@ place_joints(
         .step = OTX_ZNEW(run->scratch, int32_t, 2 * (int64_t)count * p->size)};
     int32_t start = 0;
 
-    if (!c.best || !c.next || !c.step)
-        return otx_fail_memory(run, "exemplar");
+    OTX_TRY(otx_run_ok(run));
     /* The clearest joint of all is one of them. */
     for (int32_t i = 1; i < p->size; ++i)
         if (p->cost[i] < p->cost[start])

@@ -53,8 +53,7 @@ otx_grain_measure(const otx_square *s, otx_grain *out)
     float *g = OTX_NEW(s->run->scratch, float, (int64_t)s->side * s->side);
     double best = -1.0;
 
-    if (!g)
-        return otx_fail_memory(s->run, "exemplar");
+    OTX_TRY(otx_run_ok(s->run));
     for (int k = 0; k < 2; ++k)
     {
         tensor t;
@@ -87,8 +86,7 @@ otx_grain_slope(const otx_square *s, double angle, float **out)
     float *f = OTX_ZNEW(s->run->scratch, float, (int64_t)n *n);
     double sum = 0.0;
 
-    if (!f || !g)
-        return otx_fail_memory(s->run, "exemplar");
+    OTX_TRY(otx_run_ok(s->run));
     OTX_TRY(otx_square_blur(s->run, s->f, g, n, fmax(1.0, n / 256.0)));
     for (int32_t y = 1; y + 1 < n; ++y)
         for (int32_t x = 1; x + 1 < n; ++x)

@@ -19,8 +19,7 @@ otx_lags_prepare(const otx_square *s, otx_lags_correlator *out)
     out->scratch = OTX_NEW(a, float, otx_fft_scratch_floats(out->fft));
     out->spectrum = OTX_NEW(a, float, otx_fft_spectrum_floats(out->fft));
     out->out = OTX_NEW(a, float, out->stride *(size_t)out->size);
-    if (!out->plane || !out->scratch || !out->spectrum || !out->out)
-        return otx_fail_memory(s->run, "exemplar");
+    OTX_TRY(otx_run_ok(s->run));
     return OSDTEX_OK;
 }
 
@@ -46,8 +45,7 @@ correlate(
     const double scale = 1.0 / ((double)c->size * c->size);
 
     out->at = OTX_NEW(s->run->scratch, float, (int64_t)w *w);
-    if (!out->at)
-        return otx_fail_memory(s->run, "exemplar");
+    OTX_TRY(otx_run_ok(s->run));
     fill_plane(c, b, s->side);
     otx_fft_forward(c->fft, 1.0f, c->plane, c->scratch, c->spectrum);
     fill_plane(c, a, s->side);

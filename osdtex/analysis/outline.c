@@ -18,8 +18,6 @@ static const double DEEP = 0.025;
 /* An area that takes as much of the picture is the ground. */
 static const double GROUND = 0.5;
 
-static const char STAGE[] = "cut";
-
 typedef struct plane
 {
     int32_t width, height;
@@ -155,8 +153,7 @@ find_ground(otx_run *run, const plane *p, int32_t **out, int32_t *ground)
 
     *ground = 0;
     *out = labels;
-    if (!labels || !queue)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < count; ++i)
         if (labels[i] == 0 && p->values[i] >= 2.0f &&
             flood(p, i, i + 1, labels, queue) > GROUND * count)
@@ -234,8 +231,7 @@ otx_outline_find(otx_run *run, const otx_exemplar *exemplar, otx_image *out)
         otx_image_create(run, run->scratch, small.width, small.height, 1, out));
     aside =
         OTX_NEW(run->scratch, float, 3 * (int64_t)small.width * small.height);
-    if (!aside)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     p = (plane){
         small.width, small.height, exemplar->wrap_x, exemplar->wrap_y,
         out->pixels};

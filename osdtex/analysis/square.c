@@ -86,8 +86,7 @@ otx_square_blur(
     float *temp = OTX_NEW(run->scratch, float, (int64_t)n *n);
     blur b = {n, NULL, r, to, temp};
 
-    if (!kernel || !temp)
-        return otx_fail_memory(run, "exemplar");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = -r; i <= r; ++i)
         kernel[r + i] = (float)exp(-0.5 * i * i / (sigma * sigma));
     b.kernel = kernel + r;

@@ -55,6 +55,7 @@ otx_call_begin(osdtex_context *context, const char *stage, otx_call *call)
                 .diagnostics = context->diagnostics,
                 .progress = context->options.progress ? relay : NULL,
                 .progress_user = context,
+                .stage = stage,
                 .outputs = context->outputs,
                 .mark = context->outputs ? &context->mark : NULL,
             },

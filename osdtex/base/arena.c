@@ -34,6 +34,7 @@ struct otx_arena
     otx_allocator *allocator;
     chunk *last;
     deferred *deferred;
+    bool failed;
     _Atomic size_t owners;
 };
 
@@ -47,6 +48,7 @@ otx_arena_create(otx_allocator *allocator)
     arena->allocator = allocator;
     arena->last = NULL;
     arena->deferred = NULL;
+    arena->failed = false;
     atomic_init(&arena->owners, 1);
     otx_allocator_hold(allocator);
     return arena;
@@ -143,6 +145,19 @@ grow(otx_arena *arena, size_t bytes)
     return true;
 }
 
+static void *
+fail(otx_arena *arena)
+{
+    arena->failed = true;
+    return NULL;
+}
+
+bool
+otx_arena_failed(const otx_arena *arena)
+{
+    return arena->failed;
+}
+
 void *
 otx_arena_alloc(otx_arena *arena, size_t count, size_t size)
 {
@@ -150,14 +165,14 @@ otx_arena_alloc(otx_arena *arena, size_t count, size_t size)
     char *result;
 
     if (size != 0 && count > (SIZE_MAX - ALIGNMENT) / size)
-        return NULL;
+        return fail(arena);
     bytes = (count * size + ALIGNMENT - 1) & ~(size_t)(ALIGNMENT - 1);
     if (bytes == 0)
         bytes = ALIGNMENT;
     if (!arena->last || arena->last->capacity - arena->last->used < bytes)
     {
         if (!grow(arena, bytes))
-            return NULL;
+            return fail(arena);
     }
     result = payload(arena->last) + arena->last->used;
     arena->last->used += bytes;
@@ -201,7 +216,8 @@ otx_arena_mark
 otx_arena_here(otx_arena *arena)
 {
     return (otx_arena_mark){
-        arena->last, arena->last ? arena->last->used : 0, arena->deferred};
+        arena->last, arena->last ? arena->last->used : 0, arena->deferred,
+        arena->failed};
 }
 
 void
@@ -211,4 +227,5 @@ otx_arena_release(otx_arena *arena, otx_arena_mark mark)
     drop_blocks(arena, mark.block);
     if (arena->last)
         arena->last->used = mark.used;
+    arena->failed = mark.failed;
 }

@@ -28,6 +28,7 @@ extern "C"
         void *block;
         size_t used;
         void *deferred;
+        bool failed;
     } otx_arena_mark;
 
     /* NULL when memory is out. Destroying NULL is fine. */
@@ -45,6 +46,16 @@ extern "C"
     ((type *)otx_arena_alloc((arena), (size_t)(count), sizeof(type)))
 #define OTX_ZNEW(arena, type, count)                                           \
     ((type *)otx_arena_zalloc((arena), (size_t)(count), sizeof(type)))
+
+    /* Whether an allocation has failed, so that a group of them is asked once:
+     *
+     *     a = OTX_NEW(run->scratch, double, n);
+     *     b = OTX_NEW(run->scratch, int32_t, n);
+     *     OTX_TRY(otx_run_ok(run));
+     *
+     * Nothing may be written through a pointer before. Releasing a mark
+     * forgets failures since. */
+    bool otx_arena_failed(const otx_arena *arena);
 
     /* Calls `fn(object)` when the arena is destroyed or released past this
      * point, last registered first. False when memory is out (the caller then

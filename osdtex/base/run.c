@@ -317,6 +317,14 @@ otx_loop_result(otx_run *run, const char *stage, otx_status status)
 }
 
 otx_status
+otx_run_ok(otx_run *run)
+{
+    if (!otx_arena_failed(run->arena) && !otx_arena_failed(run->scratch))
+        return OSDTEX_OK;
+    return otx_fail_memory(run, run->stage ? run->stage : "run");
+}
+
+otx_status
 otx_progress(otx_run *run, const char *stage, double fraction)
 {
     const osdtex_diagnostic said = {

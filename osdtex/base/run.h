@@ -42,6 +42,7 @@ typedef struct otx_run
     otx_pool *pool;
     otx_allocator *allocator;
     otx_diagnostics *diagnostics;
+    const char *stage;        /* that memory may run out in; NULL: "run" */
     otx_progress_fn progress; /* NULL none */
     void *progress_user;
     uint64_t seed;
@@ -82,6 +83,10 @@ otx_status otx_fail(
 void otx_note(
     otx_run *run, osdtex_severity severity, const char *stage, otx_where where,
     const char *format, ...) OTX_PRINTF(5, 6);
+
+/* MEMORY when an allocation in the arena or the scratch arena has failed since
+ * they were marked: asked once after a group of allocations. */
+otx_status otx_run_ok(otx_run *run);
 
 /* `otx_fail` for an allocation that failed. */
 otx_status otx_fail_memory(otx_run *run, const char *stage);

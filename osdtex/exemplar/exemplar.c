@@ -515,8 +515,7 @@ build_all(build *b)
 
     OTX_TRY(resolve_spaces(b));
     b->rows = OTX_ZNEW(b->run->scratch, row_result, b->input->pixels.height);
-    if (!b->rows)
-        return otx_fail_memory(b->run, stage);
+    OTX_TRY(otx_run_ok(b->run));
     OTX_TRY(build_linear(b));
     OTX_TRY(otx_progress(b->run, stage, 0.4));
     OTX_TRY(build_views(b));
@@ -572,8 +571,7 @@ otx_exemplar_crop(
     otx_exemplar made = *from;
     otx_tileable test;
 
-    if (!rows)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(crop(run, &from->linear, x, y, width, height, &made.linear));
     OTX_TRY(crop(run, &from->match, x, y, width, height, &made.match));
     OTX_TRY(crop(run, &from->lab, x, y, width, height, &made.lab));
@@ -619,8 +617,7 @@ otx_exemplar_rearrange(
     row_result *rows = OTX_ZNEW(run->scratch, row_result, from->lab.height);
     otx_exemplar made = *from;
 
-    if (!rows)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(rearrange(run, &from->linear, texels, &made.linear));
     OTX_TRY(rearrange(run, &from->match, texels, &made.match));
     OTX_TRY(rearrange(run, &from->lab, texels, &made.lab));
@@ -683,8 +680,7 @@ otx_exemplar_resize(
             "at its scale the picture has %d x %d texels of the first "
             "exemplar's size, too few to texture with",
             (int)width, (int)height);
-    if (!rows)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(resize(run, from, &from->match, width, height, &made.match));
     OTX_TRY(resize(run, from, &from->lab, width, height, &made.lab));
     OTX_TRY(measure_both(run, rows, &made));

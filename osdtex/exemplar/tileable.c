@@ -47,8 +47,7 @@ measure_steps(otx_run *run, const otx_image *image, steps *out)
     double inner = 0.0;
     double largest = 0.0;
 
-    if (!sum)
-        return otx_fail_memory(run, "colour");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t y = 0; y < image->height; ++y)
     {
         const float *row = otx_image_at(image, 0, y);
@@ -116,8 +115,7 @@ sum_columns(otx_run *run, const otx_image *image, column **out)
 {
     column *columns = OTX_ZNEW(run->scratch, column, image->width);
 
-    if (!columns)
-        return otx_fail_memory(run, "colour");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t y = 0; y < image->height; ++y)
     {
         const float *row = otx_image_at(image, 0, y);

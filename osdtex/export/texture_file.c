@@ -42,8 +42,7 @@ separate_levels(
     const int32_t count = otx_pyramid_count(image->width, image->height) - 1;
     otx_image *levels = OTX_NEW(run->scratch, otx_image, count);
 
-    if (!levels)
-        return otx_fail_memory(run, "export");
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_tile_layout_levels(run, run->scratch, layout, image, levels));
     options->levels = levels;
     options->level_count = count;

@@ -167,9 +167,7 @@ otx_connection_build(
         .weights = OTX_ZNEW(run->arena, double, l->edge_count),
         .inner = OTX_ZNEW(run->arena, uint8_t, l->edge_count),
     };
-    if (!out->centres || !out->normals || !out->axes || !out->areas ||
-        !out->sides || !out->turns || !out->weights || !out->inner)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_pool_for(run->pool, l->face_count, do_face, out));
     OTX_TRY(otx_pool_for(run->pool, l->edge_count, do_edge, out));
     for (int32_t f = 0; f < l->face_count; ++f)

@@ -69,8 +69,7 @@ otx_constraint_check_table(
     if (!set->is_table)
         return OSDTEX_OK;
     seen = OTX_ZNEW(run->scratch, uint8_t, face_count);
-    if (!seen)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < set->count; ++i)
     {
         const int32_t face = set->items[i].face;
@@ -261,8 +260,7 @@ pin_all(pinning *p)
             "radii");
     p->pins = OTX_NEW(p->run->arena, otx_direction_pin, count);
     p->owner = OTX_NEW(p->run->arena, int32_t, faces);
-    if (!p->pins || !p->owner)
-        return otx_fail_memory(p->run, "field");
+    OTX_TRY(otx_run_ok(p->run));
     for (int32_t f = 0; f < faces; ++f)
         p->owner[f] = -1;
     for (int32_t i = 0; i < p->set->count; ++i)
@@ -381,8 +379,7 @@ lock_values(
             "the constraints hold too many vertices; give fewer points or "
             "smaller radii");
     *out = OTX_NEW(run->scratch, otx_scale_lock, capacity);
-    if (!*out)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < set->count; ++i)
     {
         if (!value_of(&set->items[i], kind, &v))
@@ -429,8 +426,7 @@ otx_constraint_scale(
     if (!set)
         return OSDTEX_OK;
     values = OTX_ZNEW(run->scratch, double, count);
-    if (!values)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_constraint_interpolate(
         run, set, c, OTX_CONSTRAINT_SCALE, NULL, values));
     for (int32_t v = 0; v < count; ++v)

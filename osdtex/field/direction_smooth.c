@@ -65,8 +65,7 @@ otx_direction_smooth(
     uint8_t *held = OTX_NEW(run->scratch, uint8_t, count);
     round_job job = {field, request, held, NULL, NULL};
 
-    if (!other || !held)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < count; ++f)
         held[f] = field->connection->level->face_hole[f];
     for (int32_t p = 0; p < request->pin_count; ++p)

@@ -64,8 +64,7 @@ number_unknowns(solver *s, const uint8_t *effect)
 
     s->row = OTX_NEW(s->run->scratch, int32_t, count);
     s->faces = OTX_NEW(s->run->scratch, int32_t, count);
-    if (!s->row || !s->faces)
-        return otx_fail_memory(s->run, "field");
+    OTX_TRY(otx_run_ok(s->run));
     for (int32_t f = 0; f < count; ++f)
         s->row[f] =
             s->c->level->face_hole[f] || (effect && !effect[f]) ? -1 : 0;
@@ -79,8 +78,7 @@ number_unknowns(solver *s, const uint8_t *effect)
     s->mass = OTX_NEW(s->run->scratch, double, s->size + 1);
     s->pull = OTX_ZNEW(s->run->scratch, double, 2 * s->size + 2);
     s->z = OTX_ZNEW(s->run->scratch, double, 2 * s->size + 2);
-    if (!s->mass || !s->pull || !s->z)
-        return otx_fail_memory(s->run, "field");
+    OTX_TRY(otx_run_ok(s->run));
     return OSDTEX_OK;
 }
 
@@ -148,8 +146,7 @@ factor(solver *s)
     int64_t count = 0;
     otx_status status;
 
-    if (!entries || !places)
-        return otx_fail_memory(s->run, "field");
+    OTX_TRY(otx_run_ok(s->run));
     s->tau = SMOOTHING / s->c->area;
     for (int32_t e = 0; e < edges; ++e)
         if (s->c->inner[e])
@@ -270,8 +267,7 @@ solve(solver *s, const uint8_t *effect)
     OTX_TRY(factor(s));
     OTX_TRY(begin(s, effect != NULL));
     old = OTX_ZNEW(s->run->scratch, double, 2 * (int64_t)s->size);
-    if (!old)
-        return otx_fail_memory(s->run, "field");
+    OTX_TRY(otx_run_ok(s->run));
     normalise(s, old);
     for (int round = 0; round < UNIT_ROUNDS; ++round)
     {

@@ -24,8 +24,7 @@ coarsen_request(
     const double s = from->symmetry;
 
     *to = *from;
-    if (!pins || !pull)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     to->pins = pins;
     to->pin_count = 0;
     for (int32_t i = 0; i < from->pin_count; ++i)
@@ -83,8 +82,7 @@ solve_coarser(
     otx_connection *coarser = OTX_NEW(run->arena, otx_connection, 1);
     otx_direction_request asked;
 
-    if (!coarser)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_connection_build(
         run, connection->surface, connection->level_index - 1, coarser));
     OTX_TRY(coarsen_request(run, connection, coarser, request, &asked));

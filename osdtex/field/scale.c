@@ -69,8 +69,7 @@ factor_laplacian(
     int64_t count;
     otx_status status;
 
-    if (!entries || !places)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     count = add_laplacian(c, row, border, entries);
     for (int32_t i = 0; i < size; ++i)
         entries[count++] = (otx_sparse_entry){i, i, GROUND, 0.0};
@@ -172,8 +171,7 @@ solve_correction(
     double *x = OTX_NEW(run->scratch, double, size);
     otx_sparse *lhs;
 
-    if (!divergence || !x)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     if (size == 0)
         return OSDTEX_OK;
     add_divergence(field, divergence);
@@ -221,8 +219,7 @@ otx_scale_edit(
     const int32_t count = field->connection->level->vert_count;
     int32_t *row = OTX_NEW(run->scratch, int32_t, count);
 
-    if (!row)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     if (!(correction->limit > 0.0))
         return OSDTEX_OK;
     OTX_TRY(solve_correction(
@@ -243,8 +240,7 @@ otx_scale_correct(
 
     *out = (otx_scale_correction){
         .raw = OTX_ZNEW(run->arena, double, count), .limit = limit};
-    if (!f || !out->raw)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     if (!(limit > 0.0))
         return OSDTEX_OK;
     OTX_TRY(otx_scale_edit(run, field, NULL, out));
@@ -305,8 +301,7 @@ otx_scale_smooth(
     int32_t size = 0;
     otx_sparse *lhs;
 
-    if (!row || !x)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t v = 0; v < count; ++v)
         row[v] = effect && !effect[v] ? -1 : 0;
     OTX_TRY(apply_locks(run, c, locks, lock_count, values, row));

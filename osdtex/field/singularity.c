@@ -49,8 +49,7 @@ otx_singularity_find(
         found += isfinite(sums[v]) && sums[v] != 0.0;
     }
     items = OTX_NEW(run->arena, otx_singularity, found);
-    if (!items)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     *out = (otx_singularity_list){found, items};
     for (int32_t v = 0; v < count; ++v)
         if (isfinite(sums[v]) && sums[v] != 0.0)

@@ -444,13 +444,11 @@ otx_streamline_trace(
             run, OSDTEX_ERROR_ARGUMENT, "field", OTX_NOWHERE,
             "spacing and width of lines are positive");
     t.slots = OTX_NEW(run->scratch, int32_t, t.slot_mask + 1);
-    if (!t.slots)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     memset(t.slots, 0xff, ((size_t)t.slot_mask + 1) * sizeof *t.slots);
     OTX_TRY(trace(&t));
     out->pieces = OTX_NEW(run->arena, otx_streamline_piece, t.piece_count);
-    if (!out->pieces)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     if (t.piece_count > 0)
         memcpy(
             out->pieces, t.pieces, (size_t)t.piece_count * sizeof *out->pieces);

@@ -328,8 +328,7 @@ read_names(
     int32_t *names = OTX_NEW(run->arena, int32_t, count);
     uint64_t value = 0, next = 0;
 
-    if (!names)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < count && *good; ++i, next = value + 1)
     {
         *text += strspn(*text, " ");

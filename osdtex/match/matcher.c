@@ -72,8 +72,7 @@ otx_matcher_create_like(
     *out = NULL;
     OTX_TRY(check_image(run, match, sigma));
     matcher = OTX_ZNEW(run->arena, otx_matcher, 1);
-    if (!matcher)
-        return otx_fail_memory(run, "match");
+    OTX_TRY(otx_run_ok(run));
     matcher->width = match->width;
     matcher->height = match->height;
     matcher->wrap_x = wrap_x;

@@ -51,8 +51,7 @@ resample(otx_run *run, const otx_image *match, otx_plane *plane)
     float *narrow =
         OTX_NEW(run->scratch, float, (size_t)match->height *narrow_row);
 
-    if (!narrow)
-        return otx_fail_memory(run, "match");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t y = 0; y < match->height; ++y)
         average_line(
             otx_image_at(match, 0, y), match->width, channels,
@@ -127,8 +126,7 @@ transform_components(otx_run *run, otx_plane *plane)
     float *rows = OTX_NEW(
         run->scratch, float, (size_t)plane->fft_height *otx_fft_stride(fft));
 
-    if (!rows || !scratch)
-        return otx_fail_memory(run, "match");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t c = 0; c <= plane->channels; ++c)
     {
         plane->spectra[c] = OTX_NEW(run->arena, float, floats);
@@ -178,8 +176,7 @@ otx_plane_create(
     plane.pixels = OTX_ZNEW(
         run->arena, float,
         (size_t)(plane.height + 2 * OTX_PLANE_APRON) * plane.row_floats);
-    if (!plane.pixels)
-        return otx_fail_memory(run, "match");
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(resample(run, match, &plane));
     subtract_mean(&plane, mean);
     fill_apron(&plane);

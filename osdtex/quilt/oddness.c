@@ -26,8 +26,6 @@ static const double QUANTILE = 0.9;
 /* RMS Lab distance that nobody sees; pictures may repeat exactly. */
 static const double UNSEEN = 0.5;
 
-static const char STAGE[] = "toroid";
-
 /* Windows of `image`, each with how far it is from all of `source`. */
 typedef struct survey
 {
@@ -119,8 +117,7 @@ place_on_cuts(otx_run *run, const otx_texel_map *map, int32_t factor, survey *s)
     int32_t *places = OTX_NEW(run->scratch, int32_t, (int64_t)width * height);
     int32_t total = 0;
 
-    if (!places)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t y = 0; y < height; ++y)
         for (int32_t x = 0; x < width; ++x)
             if (is_cut(map, factor, x, y))

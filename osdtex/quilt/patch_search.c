@@ -18,8 +18,6 @@ enum
     OWN_SHARE = 4 /* a place is left out of which one texel in 4 is there */
 };
 
-static const char STAGE[] = "tiles";
-
 /* Orthonormal cosines of GRID samples. */
 static const float COSINES[LIGHT][GRID] = {
     {0.353553391f, 0.353553391f, 0.353553391f, 0.353553391f, 0.353553391f,
@@ -83,8 +81,7 @@ average(otx_run *run, const otx_texel_pool *pool, int32_t cell, float **out)
     float *means = OTX_ZNEW(run->scratch, float, count);
     const float share = 1.0f / (float)(cell * cell);
 
-    if (!rows || !means)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t y = 0; y < height; ++y)
         for (int32_t x = 0; x < width; ++x)
             for (int32_t i = 0; i < cell; ++i)
@@ -179,8 +176,7 @@ otx_patch_search_create(
     out->index = block = OTX_NEW(
         run->arena, float,
         (size_t)out->rows *(size_t)out->blocks *(size_t)(NUMBERS * LANES));
-    if (!block)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(average(run, pool, size / GRID, &means));
     for (int32_t j = 0; j < out->rows; ++j)
         for (int32_t i = 0; i < out->blocks; ++i, block += NUMBERS * LANES)

@@ -318,8 +318,7 @@ otx_quilt_expand(otx_run *run, otx_quilt *quilt, int32_t sheet)
     int32_t node_count;
     int64_t after;
 
-    if (!m.nodes || !labels)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     node_count = number_nodes(&m);
     m.graph = otx_maxflow_create(run->scratch, node_count, 2 * node_count);
     if (!m.graph)

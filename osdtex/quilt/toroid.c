@@ -123,8 +123,7 @@ cover(toroid *t, int32_t x, int32_t y, int32_t axis)
     otx_texel_map now;
     int32_t count;
 
-    if (!quilt)
-        return otx_fail_memory(t->run, STAGE);
+    OTX_TRY(otx_run_ok(t->run));
     OTX_TRY(
         otx_texel_map_create(t->run, t->run->scratch, t->side, t->side, &now));
     take_current(t, x, y, axis, &now);

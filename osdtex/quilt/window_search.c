@@ -9,8 +9,6 @@ enum
     STRIDE = 2 /* between texels that are compared when places are refined */
 };
 
-static const char STAGE[] = "toroid";
-
 /* Adds the mean colour of a block of a map to `out`; false when it has holes.
  */
 static bool
@@ -204,8 +202,7 @@ otx_window_search_find(
     h.columns = (otx_texel_pool_places_x(s->pool, s->side) - 1) / f + 1;
     h.rows = (otx_texel_pool_places_y(s->pool, s->side) - 1) / f + 1;
     h.cost = OTX_NEW(run->scratch, double, (int64_t)h.columns *h.rows);
-    if (!known || !h.cost)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_window_search_shrink(
         run, run->scratch, s->pool, window, f, &h.what, known));
     OTX_TRY(otx_pool_for(run->pool, h.rows, hunt_row, &h));

@@ -520,8 +520,7 @@ store_labels(const state *s, int32_t *face_patch, otx_cut_stats *stats)
 {
     uint8_t *used = OTX_ZNEW(s->run->scratch, uint8_t, s->offer_count);
 
-    if (!used)
-        return otx_fail_memory(s->run, stage);
+    OTX_TRY(otx_run_ok(s->run));
     for (int32_t f = 0; f < s->leaf->face_count; ++f)
     {
         const int32_t label = s->views[f].label;

@@ -190,8 +190,7 @@ keep_shape(otx_elastic *e)
     const otx_rigid_mesh mesh = {s->face_count, s->count, s->first, s->corners,
                                  verts,         points,   1.0,      NULL};
 
-    if (!points || !verts)
-        return otx_fail_memory(e->run, "relax");
+    OTX_TRY(otx_run_ok(e->run));
     for (int32_t v = 0; v < s->count; ++v)
     {
         verts[v] = v;
@@ -210,8 +209,7 @@ build_pyramids(otx_elastic *e)
 
     e->pyramids = OTX_NEW(arena, otx_pyramid, e->exemplar_count);
     e->views = OTX_NEW(arena, otx_elastic_view, e->exemplar_count);
-    if (!e->pyramids || !e->views)
-        return otx_fail_memory(e->run, "relax");
+    OTX_TRY(otx_run_ok(e->run));
     for (int32_t k = 0; k < e->exemplar_count; ++k)
         OTX_TRY(otx_pyramid_build(
             e->run, arena, &e->exemplars[k].match, &e->pyramids[k]));
@@ -258,10 +256,8 @@ allocate(otx_elastic *e)
     e->shares =
         OTX_NEW(arena, otx_elastic_share, 4 * (int64_t)e->sheet.seam_count);
     e->end_at = OTX_NEW(arena, int32_t, 4 * (int64_t)e->sheet.seam_count);
-    if (!e->badness || !e->end_first || !e->ends || !e->end_at ||
-        !e->energies || !e->shares || !e->terms || !e->step || !e->b ||
-        !e->diagonal || !e->moved || !e->held || !e->before || !e->source ||
-        otx_rigid_fans_build(arena, &e->sheet.rigid, &e->fans) != OSDTEX_OK)
+    OTX_TRY(otx_run_ok(e->run));
+    if (otx_rigid_fans_build(arena, &e->sheet.rigid, &e->fans) != OSDTEX_OK)
         return otx_fail_memory(e->run, "relax");
     otx_elastic_list_ends(e);
     list_sources(e);

@@ -228,8 +228,7 @@ otx_elastic_find_step(otx_elastic *e, otx_vec2 **step)
     OTX_TRY(otx_pool_for(e->run->pool, tasks, linearise_seams, e));
     prepare_system(e);
     *step = OTX_ZNEW(e->run->scratch, otx_vec2, s->count);
-    if (!*step)
-        return otx_fail_memory(e->run, "relax");
+    OTX_TRY(otx_run_ok(e->run));
     return otx_loop_result(
         e->run, "relax",
         otx_rigid_solve(e->run->scratch, &system, e->b, *step));

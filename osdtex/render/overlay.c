@@ -18,8 +18,7 @@ index_lines(otx_run *run, const otx_scene *scene, otx_overlay_index *out)
         OTX_ZNEW(run->scratch, int32_t, (size_t)scene->face_count + 2);
     int32_t *lines = OTX_NEW(run->scratch, int32_t, o->line_count);
 
-    if (!first || !lines)
-        return otx_fail_memory(run, "render");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < o->line_count; ++i)
     {
         if (o->lines[i].face < 0 || o->lines[i].face >= scene->face_count)
@@ -91,12 +90,10 @@ otx_overlay_prepare(
 
     *out = (otx_overlay_index){.overlay = overlay};
     OTX_TRY(index_lines(run, scene, out));
-    if (!first)
-        return otx_fail_memory(run, "render");
+    OTX_TRY(otx_run_ok(run));
     dots =
         OTX_NEW(run->scratch, int32_t, list_dots(scene, overlay, first, NULL));
-    if (!dots)
-        return otx_fail_memory(run, "render");
+    OTX_TRY(otx_run_ok(run));
     list_dots(scene, overlay, first, dots);
     out->face_first_dot = first;
     out->face_dots = dots;

@@ -35,8 +35,7 @@ otx_scene_smooth(otx_run *run, otx_scene *scene)
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     otx_vec3 *sums = OTX_ZNEW(run->scratch, otx_vec3, count);
 
-    if (!normals || !sums)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < scene->face_count; ++f)
     {
         const otx_vec3 n = face_normal(scene, f);

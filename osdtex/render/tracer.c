@@ -90,8 +90,7 @@ list_primitives(otx_run *run, otx_tracer *tracer)
     for (int32_t f = 0; f < scene->face_count; ++f)
         count += primitives_of(scene, f);
     tracer->primitives = OTX_NEW(run->scratch, primitive, count);
-    if (!tracer->primitives)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     tracer->primitive_count = count;
     count = 0;
     for (int32_t f = 0; f < scene->face_count; ++f)

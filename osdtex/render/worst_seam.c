@@ -258,8 +258,7 @@ list_places(
     OTX_TRY(otx_island_pair(run, run->scratch, scene, &twin));
     OTX_TRY(otx_island_seams(run, run->scratch, scene, twin, &seam));
     *out = OTX_NEW(run->scratch, place, scene->corner_count);
-    if (!faces || !*out)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < scene->face_count; ++f)
         for (int32_t c = scene->face_first[f]; c < scene->face_first[f + 1];
              ++c)

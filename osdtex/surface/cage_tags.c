@@ -52,8 +52,7 @@ read_creases(
     float *sharpness = OTX_NEW(run->arena, float, in->crease_count);
     int32_t count = 0;
 
-    if (!verts || !sharpness)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < in->crease_count; ++i)
     {
         const int32_t a = in->crease_verts[2 * (size_t)i];
@@ -89,8 +88,7 @@ read_corners(otx_run *run, const otx_cage_input *in, otx_cage *cage)
     int32_t *verts = OTX_NEW(run->arena, int32_t, in->corner_tag_count);
     float *sharpness = OTX_NEW(run->arena, float, in->corner_tag_count);
 
-    if (!verts || !sharpness)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < in->corner_tag_count; ++i)
     {
         const otx_where where = at_tag(in, in->corner_tag_line, i);
@@ -115,8 +113,7 @@ read_holes(otx_run *run, const otx_cage_input *in, otx_cage *cage)
     uint8_t *hole = OTX_ZNEW(run->arena, uint8_t, in->face_count);
     int32_t count = 0;
 
-    if (!hole)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < in->hole_count; ++i)
     {
         const int32_t face = in->hole_faces[i];

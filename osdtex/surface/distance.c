@@ -143,8 +143,7 @@ otx_distance_measure(
         .dense = true,
         .queue = otx_pqueue_make(run->scratch)};
 
-    if (!labels)
-        return otx_fail_memory(run, "map");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
         labels[f] = leaf->face_hole[f] ? -1 : label[f];
     if (!go(&w, limit))

@@ -60,8 +60,7 @@ split_corners(
     float *sharpness = OTX_NEW(run->scratch, float, count);
     int32_t to = cage->corner_tag_count;
 
-    if (!verts || !sharpness)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < cage->corner_tag_count; ++i)
     {
         verts[i] = cage->corner_tag_verts[i];

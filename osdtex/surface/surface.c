@@ -188,8 +188,7 @@ finish(otx_run *run, otx_surface *surface, float *tangents)
     const otx_level *leaf = otx_surface_leaf(surface);
     float *normals = OTX_NEW(run->arena, float, 3 * (size_t)leaf->vert_count);
 
-    if (!normals)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_progress(run, STAGE, 0.9));
     OTX_TRY(otx_limit_frames(run, leaf, surface->points, tangents, normals));
     surface->normals = normals;

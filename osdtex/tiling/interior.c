@@ -113,8 +113,7 @@ otx_interior_fill(
     const otx_frame_kit *kit = search->kit;
     otx_quilt *quilt = OTX_NEW(run->scratch, otx_quilt, 1);
 
-    if (!quilt)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_quilt_create(
         run, run->scratch, search->pool, kit->sizes.side, kit->sizes.side,
         quilt));
@@ -147,8 +146,7 @@ otx_interior_build(
     otx_texel_window *windows = OTX_NEW(run->scratch, otx_texel_window, room);
     int32_t count;
 
-    if (!windows)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     count = otx_ring_search_find(
         run->scratch, search, name, OTX_RING_SEARCH_SIDES, options->windows,
         windows);

@@ -96,8 +96,7 @@ prepare(maker *m)
     plane_floats = m->search->stride * (size_t)pool->height;
     m->scratch =
         OTX_NEW(m->run->scratch, float, otx_fft_scratch_floats(m->fft));
-    if (!m->scratch)
-        return otx_fail_memory(m->run, STAGE);
+    OTX_TRY(otx_run_ok(m->run));
     for (int32_t p = 0; p < PLANES; ++p)
     {
         m->planes[p] = OTX_ZNEW(m->run->scratch, float, plane_floats);
@@ -153,8 +152,7 @@ make_map(maker *m, int32_t type, int32_t side)
     float *map = OTX_NEW(m->run->arena, float, floats);
     float own;
 
-    if (!map)
-        return otx_fail_memory(m->run, STAGE);
+    OTX_TRY(otx_run_ok(m->run));
     lay_band(m, type, side);
     own = (float)(m->own / area);
     otx_fft_correlate(
@@ -211,8 +209,7 @@ otx_ring_search_create(
         .maps = OTX_ZNEW(run->arena, float *, 4 * types),
         .turns_step = layout->oriented ? 2 : 1,
     };
-    if (!out->maps)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(set_bounds(run, out, region));
     OTX_TRY(prepare(&m));
     for (int32_t type = 0; type < types; ++type)

@@ -18,8 +18,6 @@ enum
     EDGE_STAGE = 0x7469c003
 };
 
-static const char STAGE[] = "tiles";
-
 int32_t
 otx_template_extra(
     const otx_strip_sizes *sizes, const otx_tileset_options *options)
@@ -211,8 +209,7 @@ find_limit(otx_run *run, const contest *c, int32_t count, double *out)
 {
     double *sorted = OTX_NEW(run->scratch, double, count);
 
-    if (!sorted)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     memcpy(sorted, c->oddness, (size_t)count * sizeof *sorted);
     otx_sort_doubles(sorted, (size_t)count);
     *out = sorted[count / SHARE];
@@ -287,8 +284,7 @@ hold(
     c->windows = OTX_NEW(run->scratch, otx_texel_window, count);
     c->costs = OTX_NEW(run->scratch, int64_t, count);
     c->oddness = OTX_NEW(run->scratch, double, count);
-    if (!c->windows || !c->costs || !c->oddness)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_pool_for(run->pool, count, body, c));
     OTX_TRY(judge(run, c, count, winner));
     otx_arena_release(run->scratch, mark);
@@ -408,8 +404,7 @@ otx_template_kit(
     kit->corners = OTX_ZNEW(run->arena, otx_corner, v);
     kit->strips =
         OTX_ZNEW(run->arena, otx_strip, 4 * kit->boundary_count * v * v);
-    if (!kit->corners || !kit->strips)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(look_around(run, pool, &c.whole));
     OTX_TRY(build_corners(run, pool, looks, options, &c, kit));
     return build_strips(run, pool, options, layout, &c, kit);

@@ -14,8 +14,6 @@ enum
     PLACE_STAGE = 0x7469c013
 };
 
-static const char STAGE[] = "tiles";
-
 /* A number from 0 to count - 1. */
 static int32_t
 draw(const otx_run *run, uint32_t stage, uint64_t element, int32_t count)
@@ -159,8 +157,7 @@ otx_vertex_check(
     *out = (otx_vertex_figures){-1.0, -1.0};
     if (search->size > otx_tile_layout_side(layout))
         return OSDTEX_OK;
-    if (!j)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     *j = (job){
         .run = run, .search = search, .layout = layout, .picture = picture};
     OTX_TRY(otx_pool_for(run->pool, 2 * WINDOWS, look_up, j));

@@ -25,6 +25,32 @@ a_product_that_overflows_is_refused(void **state)
     assert_null(otx_arena_alloc(run->arena, SIZE_MAX, 1));
 }
 
+/* One question after a group of allocations: the first, the second or both may
+ * have failed. Releasing the mark before them forgets it. */
+static void
+a_failure_is_remembered_until_its_mark(void **state)
+{
+    otx_run *run = test_run_create();
+
+    (void)state;
+    for (int which = 0; which < 4; ++which)
+    {
+        const otx_arena_mark mark = otx_arena_here(run->scratch);
+        const otx_arena_mark kept = otx_arena_here(run->arena);
+
+        assert_int_equal(otx_run_ok(run), OSDTEX_OK);
+        (void)otx_arena_alloc(run->scratch, which & 1 ? SIZE_MAX : 1, 2);
+        (void)otx_arena_alloc(run->arena, which & 2 ? SIZE_MAX : 1, 2);
+        (void)otx_arena_alloc(run->scratch, 1, 2);
+        assert_int_equal(
+            otx_run_ok(run), which ? OSDTEX_ERROR_MEMORY : OSDTEX_OK);
+        otx_arena_release(run->scratch, mark);
+        otx_arena_release(run->arena, kept);
+        assert_int_equal(otx_run_ok(run), OSDTEX_OK);
+    }
+    test_run_destroy(run);
+}
+
 static void
 note_call(void *object)
 {
@@ -110,6 +136,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(allocations_are_aligned_and_distinct),
         cmocka_unit_test(a_product_that_overflows_is_refused),
+        cmocka_unit_test(a_failure_is_remembered_until_its_mark),
         cmocka_unit_test(release_runs_what_was_deferred_since_the_mark),
         cmocka_unit_test(a_limit_is_kept),
         cmocka_unit_test(what_is_held_outlives_its_owner),
