@@ -196,9 +196,11 @@ class Several(MaskTest):
         for threads in (1, 4):
             self.map("--also", f"{MATERIAL}={GRASS}", "--threads", threads,
                      name=f"t{threads}.obj")
-        self.assertEqual(
-            (self.folder / "t1.obj").read_text().replace("t1", ""),
-            (self.folder / "t4.obj").read_text().replace("t4", ""))
+        one, four = (
+            # The seal is of a whole file, whose name stands in it.
+            re.sub(r"seal \w+", "seal", (self.folder / f"t{n}.obj").read_text()
+                   .replace(f"t{n}", "")) for n in (1, 4))
+        self.assertEqual(one, four)
 
     def test_plain_meshes(self):
         self.map("--scheme", "none", "--level", "0", "--scale", "8",
@@ -342,6 +344,7 @@ class Refused(MaskTest):
                 "--also", GRASS, "--mask", self.folder / name)
             self.assert_error(result, 1, "is an input")
             self.assertEqual(mask.read_bytes(), before)
+            mask.unlink()
         mask = self.folder / "out_mask.1001.png"
         write_png(mask, 4, 4, lambda x, y: (255, 0, 0))
         self.assert_exit(
