@@ -52,7 +52,9 @@ otx_mark_set_source(otx_mark *mark, const char *path)
         changed |= !fits;
     }
     otx_hash_text(name, strlen(name), hash);
-    sprintf(to, changed ? "_%.8s" : "", hash);
+    *to = '\0';
+    if (changed)
+        sprintf(to, "_%.8s", hash);
 }
 
 void
