@@ -181,7 +181,8 @@ class Preflight(ProgramTest):
         for cage, more in (
                 (mirrored, ()), (mirrored, ("--uvs", "own")),
                 (JACK, ("--scale", "60"))):
-            flags = ("--level", "1", "--resolution", "64", *more)
+            # What one cage left behind is another's to replace.
+            flags = ("--level", "1", "--resolution", "64", "--replace", *more)
             dry = self.findings(self.look("bake", cage, *flags))
             self.assertTrue(dry)
             result = self.run_program(
