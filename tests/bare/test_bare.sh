@@ -45,7 +45,7 @@ END
 cp "$work/commands" "$root/root/commands"
 
 status=0
-unshare --mount --pid --fork sh -eu -c '
+unshare --mount --pid --fork --kill-child sh -eu -c '
     mount --make-rprivate /
     mount --rbind /dev "$0/dev"
     mount -t proc proc "$0/proc"
