@@ -2,6 +2,7 @@
 #include "api/call.h"
 #include "api/handle.h"
 #include "base/hash.h"
+#include "base/union_find.h"
 #include "file/obj.h"
 
 #include <math.h>
@@ -73,14 +74,6 @@ input_from_obj(const otx_obj *obj)
     return input;
 }
 
-static int32_t
-root_of(int32_t *parent, int32_t v)
-{
-    while (parent[v] != v)
-        v = parent[v] = parent[parent[v]];
-    return v;
-}
-
 /* Components of the faces, by union-find over their vertices. */
 static otx_status
 count_components(otx_run *run, const otx_cage *cage, int32_t *out)
@@ -96,12 +89,13 @@ count_components(otx_run *run, const otx_cage *cage, int32_t *out)
     for (int32_t f = 0; f < cage->face_count; ++f)
     {
         const int32_t first = cage->face_first[f];
-        const int32_t root = root_of(parent, cage->face_verts[first]);
+        const int32_t root =
+            otx_union_find_root(parent, cage->face_verts[first]);
 
         for (int32_t c = first; c < cage->face_first[f + 1]; ++c)
         {
             used[cage->face_verts[c]] = 1;
-            parent[root_of(parent, cage->face_verts[c])] = root;
+            parent[otx_union_find_root(parent, cage->face_verts[c])] = root;
         }
     }
     for (int32_t v = 0; v < cage->vert_count; ++v)

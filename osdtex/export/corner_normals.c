@@ -7,6 +7,7 @@
  * is more than one, each has the mean normal of its faces, by area. */
 #include "export/corner_normals.h"
 
+#include "base/union_find.h"
 #include "math/vec.h"
 #include "surface/topology.h"
 
@@ -152,26 +153,6 @@ mark_sharp(builder *b)
 
 /* ---- sides --------------------------------------------------------------- */
 
-static int32_t
-root_of(int32_t *parent, int32_t c)
-{
-    while (parent[c] != c)
-        c = parent[c] = parent[parent[c]];
-    return c;
-}
-
-/* The smaller corner stays the root. */
-static void
-join(int32_t *parent, int32_t a, int32_t b)
-{
-    a = root_of(parent, a);
-    b = root_of(parent, b);
-    if (a < b)
-        parent[b] = a;
-    else
-        parent[a] = b;
-}
-
 /* The corner of a face at a vertex, -1 none. */
 static int32_t
 corner_at(const otx_level *level, int32_t face, int32_t vertex)
@@ -200,7 +181,7 @@ join_across(builder *b, int32_t face, int32_t k)
         const int32_t across = corner_at(leaf, other, leaf->face_verts[corner]);
 
         if (across >= 0 && b->at_sharp[leaf->face_verts[corner]])
-            join(b->parent, corner, across);
+            otx_union_find_join(b->parent, corner, across);
     }
 }
 
@@ -259,7 +240,7 @@ side_sums(builder *b)
         for (int32_t c = leaf->face_first[f]; c < leaf->face_first[f + 1]; ++c)
             if (has_sides(b, leaf->face_verts[c]))
             {
-                const int32_t root = root_of(b->parent, c);
+                const int32_t root = otx_union_find_root(b->parent, c);
 
                 sums[root] = otx_vec3_add(sums[root], area);
             }
@@ -294,7 +275,8 @@ list_normals(builder *b, otx_corner_normals *out)
     for (int32_t c = 0; c < leaf->corner_count; ++c)
     {
         const int32_t v = leaf->face_verts[c];
-        const int32_t root = has_sides(b, v) ? root_of(b->parent, c) : c;
+        const int32_t root =
+            has_sides(b, v) ? otx_union_find_root(b->parent, c) : c;
         const otx_vec3 vertex = otx_vec3_load(b->surface->normals, v);
         const otx_vec3 side = sums[root];
 

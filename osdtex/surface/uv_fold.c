@@ -7,6 +7,8 @@
  * is cut but what hangs together through a fold. */
 #include "surface/uv_fold.h"
 
+#include "base/union_find.h"
+
 #include <string.h>
 
 typedef struct folder
@@ -38,25 +40,6 @@ sign_of(const folder *f, int32_t face)
     return (int8_t)((area > 0.0) - (area < 0.0));
 }
 
-static int32_t
-root_of(int32_t *parent, int32_t c)
-{
-    while (parent[c] != c)
-        c = parent[c] = parent[parent[c]];
-    return c;
-}
-
-static void
-join(int32_t *parent, int32_t a, int32_t b)
-{
-    a = root_of(parent, a);
-    b = root_of(parent, b);
-    if (a < b)
-        parent[b] = a;
-    else
-        parent[a] = b;
-}
-
 /* Joins the corners at both ends of an edge that is no seam; whether it is a
  * fold. */
 static bool
@@ -74,9 +57,9 @@ join_across(folder *f, int32_t edge)
     is_fold = f->sign[t->corner_face[a[0]]] * f->sign[t->corner_face[b[1]]] < 0;
     for (int k = 0; k < 2; ++k)
     {
-        join(f->whole, a[k], b[k]);
+        otx_union_find_join(f->whole, a[k], b[k]);
         if (!is_fold)
-            join(f->part, a[k], b[k]);
+            otx_union_find_join(f->part, a[k], b[k]);
     }
     return is_fold;
 }
@@ -115,12 +98,12 @@ number_parts(
     out->uv_count = uv_count;
     for (int32_t c = 0; c < f->t->corner_count; ++c)
     {
-        const int32_t part = root_of(f->part, c);
+        const int32_t part = otx_union_find_root(f->part, c);
 
         /* The root is the smallest corner of its set. */
         if (part != c)
             index[c] = index[part];
-        else if (root_of(f->whole, c) == c)
+        else if (otx_union_find_root(f->whole, c) == c)
             index[c] = f->face_uvs[c];
         else
         {
