@@ -63,6 +63,23 @@ list_fragments(otx_run *run, const otx_lookups *l, otx_tensors *out)
     return OSDTEX_OK;
 }
 
+/* Which texel of its file each texel of an exemplar is, where it was cut. */
+static void
+gather_cuts(const osdtex_mapping *mapping, otx_tensors *out)
+{
+    for (int32_t k = 0; k < mapping->source_count; ++k)
+    {
+        const otx_exemplar_cuts *c = &mapping->sources[k]->cuts;
+        char name[OTX_TENSOR_NAME_BYTES];
+
+        snprintf(name, sizeof name, "exemplar_texels_%d", (int)k);
+        if (c->texels)
+            otx_tensors_add(
+                out, name, OTX_TENSOR_I32, (int64_t)c->width * c->height, 0,
+                c->texels);
+    }
+}
+
 /* Arrays in the order of their types' sizes, so that all are aligned. */
 static otx_status
 gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
@@ -114,17 +131,7 @@ gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
             out, "lookup_fragment", OTX_TENSOR_I32, count, 0, fragments);
         OTX_TRY(list_fragments(run, l, out));
     }
-    for (int32_t k = 0; k < mapping->source_count; ++k)
-    {
-        const otx_exemplar_cuts *c = &mapping->sources[k]->cuts;
-        char name[OTX_TENSOR_NAME_BYTES];
-
-        snprintf(name, sizeof name, "exemplar_texels_%d", (int)k);
-        if (c->texels)
-            otx_tensors_add(
-                out, name, OTX_TENSOR_I32, (int64_t)c->width * c->height, 0,
-                c->texels);
-    }
+    gather_cuts(mapping, out);
     if (m->lattice)
         otx_tensors_add(
             out, "cells_open", OTX_TENSOR_U8, leaf->face_count, 0,
