@@ -18,14 +18,19 @@ enum
 };
 
 /* What is baked besides the colour, as 32-bit NAME_patch.<UDIM>.exr and so on:
- * values at the texel's centre, never averaged; blue is 1 on the surface and 0
- * beyond. */
+ * values at the texel's centre, never averaged; but for the source, blue is 1
+ * on the surface and 0 beyond. */
 enum
 {
     OSDTEX_BAKE_PATCH = 1,   /* number of the patch, face of the cage */
     OSDTEX_BAKE_UV = 2,      /* UV in the exemplar */
     OSDTEX_BAKE_STRETCH = 4, /* L2 stretch, ratio of the axes; 1 is none */
-    OSDTEX_BAKE_SEAM = 8     /* 1 where patches meet */
+    OSDTEX_BAKE_SEAM = 8,    /* 1 where patches meet */
+    OSDTEX_BAKE_SOURCE = 16  /* all that another picture of the exemplar's size
+                              * is baked by: R the exemplar, G and B its UV, A
+                              * the footprint, the side of a square as large
+                              * as the texel there, in widths of the exemplar;
+                              * beyond the surface, too */
 };
 
 /* Which axis points up in the scene. Nothing is turned. */

@@ -22,7 +22,8 @@ check(
     const osdtex_bake_options *ours, const osdtex_write_options *mesh)
 {
     const uint32_t known = OSDTEX_BAKE_PATCH | OSDTEX_BAKE_UV |
-                           OSDTEX_BAKE_STRETCH | OSDTEX_BAKE_SEAM;
+                           OSDTEX_BAKE_STRETCH | OSDTEX_BAKE_SEAM |
+                           OSDTEX_BAKE_SOURCE;
 
     if (!mapping || !path || ours->comment_count < 0 ||
         (ours->comment_count > 0 && !ours->comments) ||
@@ -82,6 +83,7 @@ bake(
     how.extras[OTX_TEXEL_UV] = (ours.extras & OSDTEX_BAKE_UV) != 0;
     how.extras[OTX_TEXEL_STRETCH] = (ours.extras & OSDTEX_BAKE_STRETCH) != 0;
     how.extras[OTX_TEXEL_SEAM] = (ours.extras & OSDTEX_BAKE_SEAM) != 0;
+    how.extras[OTX_TEXEL_SOURCE] = (ours.extras & OSDTEX_BAKE_SOURCE) != 0;
     if (ours.preview_png)
         OTX_TRY(otx_call_colour(call, &how.colour));
     OTX_TRY(otx_layout_build(&call->run, &mapping->mapping, &place, &layout));

@@ -41,16 +41,60 @@ stretch_of(const otx_texel_source *source, const otx_facet *facet, double s[2])
     s[1] = sqrt(fmax(half - root, 0.0));
 }
 
-/* The two values at a place, of the kind that is baked; 0 of seams, which are
- * found texel by texel. */
+/* The one of a face's terms that shows most at a place; of equals the last,
+ * which may lie over the others. */
+static otx_show_term
+main_term(const otx_texel_source *source, const otx_show_place *place)
+{
+    const int32_t exemplar = otx_source_of(source->mapping, place->face);
+    otx_show_term best = otx_show_term_at(&source->show, place, exemplar, 0);
+
+    for (int32_t i = 1; i < otx_show_term_count(&source->show, place->face);
+         ++i)
+    {
+        const otx_show_term term =
+            otx_show_term_at(&source->show, place, exemplar, i);
+
+        if (term.weight >= best.weight)
+            best = term;
+    }
+    return best;
+}
+
+/* What is looked up at a place: the exemplar, u and v there, and the side of
+ * the square that covers as much of it as the texel does, in its widths. */
 static void
-values_at(const otx_texel_source *source, const otx_walk *walk, float *values)
+source_at(const otx_texel_source *source, const otx_walk *walk, float *values)
+{
+    const otx_show_place place = {
+        walk->facet.face, walk->facet.corners, walk->at, walk->dx, walk->dy};
+    const otx_show_term term = main_term(source, &place);
+    const otx_image *image = &source->exemplars[term.exemplar].linear;
+    const double area = otx_vec2_cross(
+        otx_show_mix(&source->show, &place, &term, walk->dx),
+        otx_show_mix(&source->show, &place, &term, walk->dy));
+
+    values[0] = (float)term.exemplar;
+    values[1] = (float)term.uv.x;
+    values[2] = (float)term.uv.y;
+    values[3] = (float)sqrt(fabs(area) * image->height / image->width);
+}
+
+/* The values at a place, of the kind that is baked; 0 of seams, which are found
+ * texel by texel.
+ *
+ *   surface  1 on it, 0 beyond */
+static void
+values_at(
+    const otx_texel_source *source, const otx_walk *walk, float surface,
+    float *values)
 {
     const int32_t face = walk->facet.face;
     otx_vec2 uv;
     double s[2];
 
     values[0] = values[1] = 0.0f;
+    values[2] = surface;
     switch (source->kind)
     {
     case OTX_TEXEL_PATCH:
@@ -67,6 +111,9 @@ values_at(const otx_texel_source *source, const otx_walk *walk, float *values)
         stretch_of(source, &walk->facet, s);
         values[0] = (float)sqrt(0.5 * (s[0] * s[0] + s[1] * s[1]));
         values[1] = s[1] > 0.0 ? (float)(s[0] / s[1]) : 0.0f;
+        return;
+    case OTX_TEXEL_SOURCE:
+        source_at(source, walk, values);
         return;
     default:
         return;
@@ -116,10 +163,9 @@ otx_aov_inside(
     const otx_walk walk =
         otx_block_walk(block, home, otx_raster_texel(&block->raster, x, y));
 
-    values_at(block->source, &walk, out);
+    values_at(block->source, &walk, 1.0f, out);
     if (block->source->kind == OTX_TEXEL_SEAM)
         out[0] = has_seam(block, x, y) || is_at_seam(block, x, y) ? 1.0f : 0.0f;
-    out[2] = 1.0f;
 }
 
 void
@@ -127,8 +173,7 @@ otx_aov_gutter(
     const otx_block *block, int32_t x, int32_t y, const otx_walk *walk,
     float *out)
 {
-    values_at(block->source, walk, out);
+    values_at(block->source, walk, 0.0f, out);
     if (block->source->kind == OTX_TEXEL_SEAM)
         out[0] = is_at_seam(block, x, y) ? 1.0f : 0.0f;
-    out[2] = 0.0f;
 }

@@ -4,7 +4,8 @@
 
 #include "bake/block.h"
 
-/* All three of a texel on the surface: with whether it is there.
+/* All values of a texel on the surface: with whether it is there, but for the
+ * source, which says nothing of that.
  *
  *   first  a sample on the texel's chart */
 void otx_aov_inside(

@@ -179,6 +179,14 @@ color_channels(const otx_exemplar *exemplars, int32_t count)
     return most;
 }
 
+static int32_t
+channels_of(otx_texel_kind kind, const otx_exemplar *exemplars, int32_t count)
+{
+    if (kind == OTX_TEXEL_COLOR)
+        return color_channels(exemplars, count);
+    return kind == OTX_TEXEL_SOURCE ? 4 : 3;
+}
+
 /* Of all exemplars, channel by channel. What one without alpha lacks is 1. */
 static void
 find_range(
@@ -223,9 +231,7 @@ otx_bake_create(
             .layout = layout,
             .exemplars = exemplars,
             .kind = options->kind,
-            .channels = options->kind == OTX_TEXEL_COLOR
-                            ? color_channels(exemplars, count)
-                            : 3,
+            .channels = channels_of(options->kind, exemplars, count),
         }};
     if (options->kind == OTX_TEXEL_COLOR)
         find_range(
@@ -242,7 +248,7 @@ const char *
 otx_bake_kind_name(otx_texel_kind kind)
 {
     static const char *const names[OTX_TEXEL_KIND_COUNT] = {
-        "color", "patch", "uv", "stretch", "seam"};
+        "color", "patch", "uv", "stretch", "seam", "source"};
 
     return names[kind];
 }

@@ -62,7 +62,7 @@ otx_status otx_bake_create(
 otx_status otx_bake_tile(
     otx_run *run, otx_bake *bake, int32_t tile, const otx_bake_sink *sink);
 
-/* "color", "patch", "uv", "stretch", "seam". */
+/* "color", "patch", "uv", "stretch", "seam", "source". */
 const char *otx_bake_kind_name(otx_texel_kind kind);
 
 #endif

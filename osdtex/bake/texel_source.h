@@ -16,6 +16,7 @@ typedef enum otx_texel_kind
     OTX_TEXEL_UV,      /* (u, v, on the surface) in the exemplar */
     OTX_TEXEL_STRETCH, /* (L2 stretch, larger / smaller, on the surface) */
     OTX_TEXEL_SEAM,    /* (patches meet in or beside it, 0, on the surface) */
+    OTX_TEXEL_SOURCE,  /* (exemplar, u, v, footprint): what is looked up */
     OTX_TEXEL_KIND_COUNT
 } otx_texel_kind;
 

@@ -76,11 +76,13 @@ parse_numbers(const otx_flag_values *values, osdtex_bake_options *out)
     return true;
 }
 
-/* patch,uv,stretch,seam in any number and order. */
+/* Extra outputs in any number and order; each is the bit of its place. */
 static bool
 parse_extras(const otx_flag_values *values, osdtex_bake_options *out)
 {
-    static const char *const words[] = {"patch", "uv", "stretch", "seam"};
+    static const char *const words[] = {
+        "patch", "uv", "stretch", "seam", "source"};
+    const int count = sizeof words / sizeof *words;
     const char *text = values->text[OTX_FLAG_EXTRA];
 
     for (const char *at = text; at && *at;)
@@ -88,14 +90,14 @@ parse_extras(const otx_flag_values *values, osdtex_bake_options *out)
         const size_t length = strcspn(at, ",");
         int found = -1;
 
-        for (int i = 0; i < 4; ++i)
+        for (int i = 0; i < count; ++i)
             if (strlen(words[i]) == length &&
                 strncmp(words[i], at, length) == 0)
                 found = i;
         if (found < 0)
         {
             otx_session_refuse(
-                "--extra takes patch, uv, stretch and seam with commas "
+                "--extra takes patch, uv, stretch, seam and source with commas "
                 "between, not '%s'",
                 text);
             return false;

@@ -13,12 +13,12 @@
 enum
 {
     SUFFIX_BYTES = 64,
-    KIND_COUNT = 5
+    KIND_COUNT = 6
 };
 
 /* Those of the extras have the place of their bit. */
 static const char *const KINDS[KIND_COUNT] = {
-    "", "_patch", "_uv", "_stretch", "_seam"};
+    "", "_patch", "_uv", "_stretch", "_seam", "_source"};
 
 /* FOLDER/NAMEsuffix; NULL when memory is out. */
 static char *

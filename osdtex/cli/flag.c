@@ -145,7 +145,7 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "texels over which patches are blended where they meet (default 0: "
          "not at all)"},
     [OTX_FLAG_EXTRA] =
-        {"extra", 0, OTX_FLAG_GROUP_BAKE, "patch,uv,stretch,seam",
+        {"extra", 0, OTX_FLAG_GROUP_BAKE, "patch,uv,stretch,seam,source",
          "also bake these, as 32-bit NAME_patch.<UDIM>.exr and so on"},
     [OTX_FLAG_PREVIEW_PNG] =
         {"preview-png", 0, OTX_FLAG_GROUP_BAKE, NULL,

@@ -40,10 +40,11 @@ class Bakes(ProgramTest):
 
     def test_files(self):
         self.assert_bakes(
-            "--extra", "seam,patch,stretch,uv", "--preview-png",
+            "--extra", "seam,source,patch,stretch,uv", "--preview-png",
             "--seam-blend", "4")
         textures = [
-            f"out{k}.1001.exr" for k in ("", "_patch", "_seam", "_stretch", "_uv")]
+            f"out{k}.1001.exr" for k in
+            ("", "_patch", "_seam", "_source", "_stretch", "_uv")]
         self.assertEqual(
             self.names(),
             sorted(LOOK + textures + ["out.1001.png", "out_preview.mtl"]))

@@ -435,7 +435,7 @@ numbers_are_those_of_the_mapping(void **state)
     (void)state;
     for (int32_t f = 0; f < leaf->face_count; ++f)
         mapping->face_patch[f] = f;
-    for (int32_t kind = 1; kind < OTX_TEXEL_KIND_COUNT; ++kind)
+    for (int32_t kind = 1; kind < OTX_TEXEL_SOURCE; ++kind)
     {
         const otx_bake_options options = {.kind = (otx_texel_kind)kind};
         const flat_levels baked =
