@@ -1,0 +1,42 @@
+/* nearest.h -- for every window of a canvas, a near one of the pattern.
+ *
+ * PatchMatch [Barnes09, sec. 3] with rotation [Barnes10]: a neighbour's match
+ * is shifted and turned on, then places around the best one are tried. Rows go
+ * in strips that see the strips beside them as they were before the pass, so
+ * that strips may be worked on in any order by any number of threads. */
+#ifndef OTX_SYNTH_NEAREST_H
+#define OTX_SYNTH_NEAREST_H
+
+#include "synth/occurrence.h"
+
+typedef struct otx_nearest_pass
+{
+    uint64_t seed;
+    uint32_t number;  /* of all passes so far */
+    bool refresh;     /* colours have changed: costs are made anew */
+    bool hint;        /* try the charts' hints, too */
+    double reach;     /* of the first random step, texels of the exemplar;
+                       * 0: none are made */
+    double turn;      /* random angles, radians */
+    double tolerance; /* of a field, radians */
+    const otx_occurrence *usage; /* NULL: it costs nothing */
+} otx_nearest_pass;
+
+/* One pass over all canvases of a level.
+ *
+ *   canvases  [count]
+ *   charts    [count] of the canvases
+ *
+ * CANCELLED, MEMORY. */
+otx_status otx_nearest_search(
+    otx_run *run, otx_canvas *const *canvases, const otx_synth_chart *charts,
+    int32_t count, const otx_nearest_pass *pass);
+
+/* A place and an angle by chance, within the tolerance of a field.
+ *
+ *   field  (c, s), or NULL */
+otx_synth_match otx_nearest_random(
+    const otx_pattern *pattern, const float *field, double tolerance,
+    uint64_t bits);
+
+#endif

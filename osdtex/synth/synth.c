@@ -1,0 +1,216 @@
+/* synth.c -- levels and rounds: search, exchange, vote. */
+#include "synth/synth.h"
+
+#include "synth/maker.h"
+#include "synth/nearest.h"
+#include "synth/start.h"
+#include "synth/vote.h"
+
+/* Rounds of search and vote, by level from the finest. */
+static const int32_t ROUNDS[] = {1, 2, 4, 16, 16, 16};
+
+enum
+{
+    ROUNDS_COARSEST = 24,
+    PASSES_FIRST = 4,
+    PASSES = 2
+};
+
+static int32_t
+rounds_at(const otx_maker *m, int32_t level)
+{
+    return level > 0 && level == m->level_count - 1 ? ROUNDS_COARSEST
+                                                    : ROUNDS[level];
+}
+
+/* Of the first random step, in texels of the exemplar. Propagation does at the
+ * finest level. */
+static double
+reach_at(const otx_maker *m, int32_t level)
+{
+    const otx_pattern *p = m->pattern;
+    const double whole = p->width > p->height ? p->width : p->height;
+
+    if (level == m->level_count - 1)
+        return whole;
+    return level == 0 ? 0.0 : level == 1 ? 24.0 : 64.0;
+}
+
+/* Falls to 0 over 7 tenths of the coarsest level's rounds. */
+static double
+usage_at(const otx_maker *m, int32_t level, int32_t round)
+{
+    const double left = 1.0 - round / (0.7 * ROUNDS_COARSEST);
+
+    return level == m->level_count - 1 && left > 0.0 ? m->options->usage * left
+                                                     : 0.0;
+}
+
+static int64_t
+texels_at(const otx_maker *m, int32_t level)
+{
+    int64_t sum = 0;
+
+    for (int32_t k = 0; k < m->count; ++k)
+        sum += (int64_t)m->stacks[k].levels[level].width *
+               m->stacks[k].levels[level].height;
+    return sum;
+}
+
+static otx_status
+say(otx_maker *m, int32_t level)
+{
+    m->done += (double)texels_at(m, level);
+    return otx_progress(
+        m->run, m->options->stage, m->done < m->all ? m->done / m->all : 1.0);
+}
+
+otx_status
+otx_maker_search(otx_maker *m, int32_t level, int32_t round, int32_t passes)
+{
+    const otx_synth_options *o = m->options;
+    const double usage = usage_at(m, level, round);
+    otx_nearest_pass pass = {
+        .seed = o->seed,
+        .reach = reach_at(m, level),
+        .turn = o->turn,
+        .tolerance = o->tolerance,
+        .usage = usage > 0.0 ? m->usage : NULL};
+
+    for (int32_t i = 0; i < passes; ++i)
+    {
+        pass.refresh = i == 0;
+        pass.hint = i == 0 && round == 0;
+        pass.number = m->passes++;
+        if (pass.usage)
+            otx_occurrence_count(
+                (const otx_canvas *const *)m->canvases, m->count, usage,
+                m->usage);
+        OTX_TRY(otx_nearest_search(
+            m->run, m->canvases, m->charts, m->count, &pass));
+        if (level == 0)
+            OTX_TRY(
+                otx_collar_exchange(m->run, m->canvases, m->collars, m->count));
+        OTX_TRY(say(m, level));
+    }
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_maker_vote(otx_maker *m, int32_t level, bool even)
+{
+    OTX_TRY(otx_vote_trust(m->run, m->canvases, m->count, even));
+    OTX_TRY(otx_collar_exchange(m->run, m->canvases, m->collars, m->count));
+    OTX_TRY(otx_vote_cast(m->run, m->canvases, m->count));
+    if (level > 0 && m->options->histogram > 0.0)
+        OTX_TRY(otx_vote_match_histogram(
+            m->run, m->canvases, m->count, m->options->histogram));
+    return OSDTEX_OK;
+}
+
+static otx_status
+rounds(otx_maker *m, int32_t level, int32_t count)
+{
+    for (int32_t round = 0; round < count; ++round)
+    {
+        OTX_TRY(otx_maker_search(
+            m, level, round, round == 0 && level > 0 ? PASSES_FIRST : PASSES));
+        OTX_TRY(otx_maker_vote(m, level, false));
+    }
+    return OSDTEX_OK;
+}
+
+static otx_status
+link_up(otx_maker *m, int32_t level)
+{
+    for (int32_t k = 0; k < m->count; ++k)
+        m->canvases[k] = &m->stacks[k].levels[level];
+    return otx_collar_link_up(
+        m->run, m->charts, m->finest, m->canvases, m->count, m->collars);
+}
+
+static otx_status
+make_level(otx_maker *m, int32_t level)
+{
+    OTX_TRY(link_up(m, level));
+    if (level < m->level_count - 1)
+    {
+        for (int32_t k = 0; k < m->count; ++k)
+            otx_canvas_descend(&m->stacks[k].levels[level + 1], m->canvases[k]);
+        OTX_TRY(otx_maker_vote(m, level, false));
+    }
+    else
+        OTX_TRY(otx_start_make(m, level));
+    return rounds(m, level, rounds_at(m, level));
+}
+
+static void
+hand_out(const otx_maker *m)
+{
+    for (int32_t k = 0; k < m->count; ++k)
+    {
+        const otx_canvas *c = m->finest[k];
+        const otx_synth_chart *chart = &m->charts[k];
+
+        for (int32_t y = 0; y < c->height; ++y)
+            for (int32_t x = 0; x < c->width; ++x)
+            {
+                const int64_t to = (int64_t)y * c->width + x;
+                const ptrdiff_t at = otx_canvas_index(c, x, y);
+
+                if (c->kinds[at] == OTX_SYNTH_FREE ||
+                    c->kinds[at] == OTX_SYNTH_COLLAR)
+                    chart->matches[to] = c->matches[at];
+                if (chart->costs)
+                    chart->costs[to] = c->costs[at];
+            }
+    }
+}
+
+static otx_status
+make(otx_maker *m)
+{
+    otx_run *run = m->run;
+    const int32_t n = m->count;
+
+    m->stacks = OTX_ZNEW(run->scratch, otx_canvas_stack, n);
+    m->finest = OTX_NEW(run->scratch, otx_canvas *, n);
+    m->canvases = OTX_NEW(run->scratch, otx_canvas *, n);
+    m->collars = OTX_NEW(run->scratch, otx_collar, n);
+    m->usage = OTX_NEW(run->scratch, otx_occurrence, 1);
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t k = 0; k < n; ++k)
+    {
+        OTX_TRY(otx_canvas_build(
+            run, m->pattern, &m->charts[k], m->options, m->level_count,
+            &m->stacks[k]));
+        m->finest[k] = &m->stacks[k].levels[0];
+    }
+    for (int32_t l = 0; l < m->level_count; ++l)
+        m->all += (double)texels_at(m, l) * (PASSES * rounds_at(m, l) + 2);
+    for (int32_t l = m->level_count - 1; l >= 0; --l)
+        OTX_TRY(make_level(m, l));
+    hand_out(m);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_synth_run(
+    otx_run *run, const otx_pattern *pattern, const otx_synth_chart *charts,
+    int32_t chart_count, const otx_synth_options *options)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    otx_maker m = {
+        .run = run,
+        .pattern = pattern,
+        .charts = charts,
+        .count = chart_count,
+        .options = options,
+        .level_count = options->levels < pattern->level_count
+                           ? options->levels
+                           : pattern->level_count};
+    const otx_status status = chart_count > 0 ? make(&m) : OSDTEX_OK;
+
+    otx_arena_release(run->scratch, mark);
+    return status;
+}
