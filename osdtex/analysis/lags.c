@@ -97,8 +97,7 @@ otx_lags_likeness(
     const int32_t r = out->reach, w = 2 * r + 1;
     const double *ta = sum_table(s, a), *tb = sum_table(s, b);
 
-    if (!ta || !tb)
-        return otx_fail_memory(s->run, "exemplar");
+    OTX_TRY(otx_run_ok(s->run));
     OTX_TRY(correlate(s, c, a, b, out));
     for (int32_t y = -r; y <= r; ++y)
         for (int32_t x = -r; x <= r; ++x)

@@ -132,8 +132,7 @@ otx_square_cut(otx_run *run, const otx_image *lab, otx_square *out)
         (lab->height - n * texel) / 2,
         texel,
         OTX_NEW(run->scratch, float, texels)};
-    if (!slow || !out->f)
-        return otx_fail_memory(run, "exemplar");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t y = 0; y < n; ++y)
         for (int32_t x = 0; x < n; ++x)
             out->f[y * n + x] = box_mean(out, lab, x, y);

@@ -82,8 +82,7 @@ count_components(otx_run *run, const otx_cage *cage, int32_t *out)
     uint8_t *used = OTX_ZNEW(run->scratch, uint8_t, cage->vert_count);
     int32_t count = 0;
 
-    if (!parent || !used)
-        return otx_fail_memory(run, "cage");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t v = 0; v < cage->vert_count; ++v)
         parent[v] = v;
     for (int32_t f = 0; f < cage->face_count; ++f)
@@ -172,8 +171,7 @@ build(
     osdtex_cage *handle = OTX_ZNEW(run->arena, osdtex_cage, 1);
     char hash[OTX_HASH_TEXT_BYTES];
 
-    if (!handle)
-        return otx_fail_memory(run, "cage");
+    OTX_TRY(otx_run_ok(run));
     how.scheme = (otx_scheme)options->scheme;
     how.boundary = options->boundary;
     how.fvar = options->fvar;
@@ -190,8 +188,7 @@ build(
     if (path && otx_hash_file(path, hash))
     {
         handle->info.hash = otx_arena_strdup(run->arena, hash);
-        if (!handle->info.hash)
-            return otx_fail_memory(run, "cage");
+        OTX_TRY(otx_run_ok(run));
     }
     *out = handle;
     return OSDTEX_OK;
@@ -261,8 +258,7 @@ offsets_of(
     int32_t *first = OTX_NEW(run->scratch, int32_t, (size_t)count + 1);
     int64_t total = 0;
 
-    if (!first)
-        return otx_fail_memory(run, "cage");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < count; ++f)
     {
         first[f] = (int32_t)total;

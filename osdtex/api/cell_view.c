@@ -91,8 +91,7 @@ otx_cell_view(
 
     cut_all(&t);
     t.lines = OTX_NEW(run->arena, otx_overlay_line, t.count + 1);
-    if (!dots || !t.lines)
-        return otx_fail_memory(run, "render");
+    OTX_TRY(otx_run_ok(run));
     cut_all(&t);
     for (int32_t i = 0; i < lattice->defect_count; ++i)
         dots[i] = (otx_overlay_dot){lattice->defects[i], 1};

@@ -213,8 +213,7 @@ keep_texels(otx_run *run, otx_exemplar_cuts *cuts)
     const size_t count = (size_t)cuts->width * (size_t)cuts->height;
     int32_t *copy = OTX_NEW(run->arena, int32_t, count);
 
-    if (!copy)
-        return otx_fail_memory(run, "mapping");
+    OTX_TRY(otx_run_ok(run));
     memcpy(copy, cuts->texels, count * sizeof *copy);
     cuts->texels = copy;
     return OSDTEX_OK;
@@ -262,8 +261,7 @@ build(
     const otx_colour *colour;
     int32_t made, width, height;
 
-    if (!handle)
-        return otx_fail_memory(run, "colour");
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_call_colour(call, &colour));
     input->to = options->to;
     input->receiver = (otx_receiver)options->receiver;
@@ -306,12 +304,11 @@ keep_source(otx_run *run, const char *path, otx_exemplar_input *input)
     char hash[OTX_HASH_TEXT_BYTES];
 
     input->source.path = otx_arena_strdup(run->arena, path);
-    if (!input->source.path)
-        return otx_fail_memory(run, "exemplar");
+    OTX_TRY(otx_run_ok(run));
     if (!otx_hash_file(path, hash))
         return OSDTEX_OK;
     input->hash = otx_arena_strdup(run->arena, hash);
-    return input->hash ? OSDTEX_OK : otx_fail_memory(run, "exemplar");
+    return otx_run_ok(run);
 }
 
 /* Takes over how a tiled texture is divided. */

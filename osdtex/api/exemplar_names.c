@@ -95,8 +95,7 @@ otx_exemplar_names_resolve(
         return OSDTEX_OK;
     copy = OTX_NEW(run->arena, otx_constraint_set, 1);
     items = OTX_NEW(run->arena, otx_constraint, (*set)->count);
-    if (!copy || !items)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     memcpy(items, (*set)->items, (size_t)(*set)->count * sizeof *items);
     for (int32_t i = 0; i < (*set)->count; ++i)
         OTX_TRY(resolve(run, exemplars, count, *set, i, &items[i]));

@@ -17,8 +17,7 @@ lend_directions(otx_run *run, osdtex_field *h)
     otx_vec3 *vectors = OTX_NEW(run->arena, otx_vec3, count);
     float *lent = OTX_ZNEW(run->arena, float, 3 * (size_t)count);
 
-    if (!vectors || !lent)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < count; ++f)
     {
         const otx_vec3 d = otx_direction_vector(&h->direction, f);
@@ -42,8 +41,7 @@ lend_scalars(otx_run *run, osdtex_field *h)
     float *scales = OTX_NEW(run->arena, float, count);
     float *materials = OTX_NEW(run->arena, float, count);
 
-    if (!scales || !materials)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     h->info.scale_min = INFINITY;
     h->info.scale_max = 0.0;
     for (int32_t v = 0; v < count; ++v)
@@ -71,8 +69,7 @@ lend_singularities(otx_run *run, osdtex_field *h)
 
     OTX_TRY(otx_singularity_find(run, &h->direction, &list));
     lent = OTX_ZNEW(run->arena, osdtex_singularity, list.count);
-    if (!lent)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < list.count; ++i)
     {
         lent[i].vertex = list.items[i].vertex;
@@ -107,15 +104,13 @@ begin(otx_run *run, const osdtex_surface *surface, osdtex_field **out)
     const int32_t verts = surface->surface.levels[leaf].vert_count;
     osdtex_field *h = OTX_ZNEW(run->arena, osdtex_field, 1);
 
-    if (!h)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     h->arena = run->arena;
     h->surface = surface;
     OTX_TRY(otx_call_hold(run, surface->arena));
     h->asked_scale = OTX_ZNEW(run->arena, double, verts);
     h->material = OTX_ZNEW(run->arena, double, verts);
-    if (!h->asked_scale || !h->material)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     *out = h;
     return otx_connection_build(run, &surface->surface, leaf, &h->connection);
 }
@@ -210,8 +205,7 @@ free_vertices(
     const otx_level *level = h->connection.level;
 
     *out = OTX_NEW(run->scratch, uint8_t, level->vert_count);
-    if (!*out)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     memset(*out, 1, (size_t)level->vert_count);
     for (int32_t f = 0; f < level->face_count; ++f)
         for (int32_t i = level->face_first[f];
@@ -235,8 +229,7 @@ copy_fields(otx_run *run, const osdtex_field *from, osdtex_field *h)
         OTX_NEW(run->arena, otx_vec2, faces)};
     h->correction = from->correction;
     h->correction.raw = OTX_NEW(run->arena, double, verts);
-    if (!h->direction.powers || !h->correction.raw)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     memcpy(
         h->direction.powers, from->direction.powers, faces * sizeof(otx_vec2));
     memcpy(h->correction.raw, from->correction.raw, verts * sizeof(double));
@@ -246,8 +239,7 @@ copy_fields(otx_run *run, const osdtex_field *from, osdtex_field *h)
     {
         otx_vec2 *pull = OTX_NEW(run->arena, otx_vec2, faces);
 
-        if (!pull)
-            return otx_fail_memory(run, "field");
+        OTX_TRY(otx_run_ok(run));
         memcpy(pull, from->request.pull, faces * sizeof *pull);
         h->request.pull = pull;
     }

@@ -21,8 +21,7 @@ take_lines(otx_run *run, const otx_direction *field, otx_overlay *out)
     OTX_TRY(otx_streamline_trace(
         run, field, out->line_width / WIDTH, out->line_width, &set));
     lines = OTX_NEW(run->arena, otx_overlay_line, set.count);
-    if (!lines)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < set.count; ++i)
         lines[i] = (otx_overlay_line){
             set.pieces[i].face,
@@ -42,8 +41,7 @@ take_dots(otx_run *run, const otx_direction *field, otx_overlay *out)
 
     OTX_TRY(otx_singularity_find(run, field, &list));
     dots = OTX_NEW(run->arena, otx_overlay_dot, list.count);
-    if (!dots)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < list.count; ++i)
         dots[i] = (otx_overlay_dot){
             otx_vec3_load(points, list.items[i].vertex), list.items[i].turns};

@@ -15,8 +15,7 @@ otx_image_handle_wrap(otx_run *run, otx_image image, osdtex_image **out)
 {
     osdtex_image *handle = OTX_ZNEW(run->arena, osdtex_image, 1);
 
-    if (!handle)
-        return otx_fail_memory(run, "image");
+    OTX_TRY(otx_run_ok(run));
     handle->arena = run->arena;
     handle->image = image;
     handle->info = (osdtex_image_info){

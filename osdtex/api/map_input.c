@@ -53,8 +53,7 @@ read_file(otx_run *run, const char *path, otx_constraint_set *set)
 
     OTX_TRY(otx_constraint_file_read(run, path, &file));
     items = OTX_NEW(run->arena, otx_constraint, file.count);
-    if (!items)
-        return otx_fail_memory(run, "constraints");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < file.count; ++i)
         items[i] = (otx_constraint){
             .face = file.lines[i].face,
@@ -93,8 +92,7 @@ otx_map_input_constraints(
     if (!path && !follow)
         return OSDTEX_OK;
     set = OTX_ZNEW(run->arena, otx_constraint_set, 1);
-    if (!set)
-        return otx_fail_memory(run, "constraints");
+    OTX_TRY(otx_run_ok(run));
     if (path)
         OTX_TRY(read_file(run, path, set));
     *out = set;
@@ -129,8 +127,7 @@ otx_map_input_add(
     otx_constraint *all =
         OTX_NEW(run->arena, otx_constraint, (size_t)had + (size_t)count);
 
-    if (!all)
-        return otx_fail_memory(run, "constraints");
+    OTX_TRY(otx_run_ok(run));
     if (had > 0)
         memcpy(all, from->items, (size_t)had * sizeof *all);
     for (int32_t i = 0; i < count; ++i)
@@ -165,8 +162,7 @@ otx_map_input_options(
             run, OSDTEX_ERROR_ARGUMENT, "constraints", OTX_NOWHERE,
             "the count of constraints is negative, or there is no array");
     set = OTX_ZNEW(run->arena, otx_constraint_set, 1);
-    if (!set)
-        return otx_fail_memory(run, "constraints");
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_map_input_add(
         run, *out, options->constraint_items, options->constraint_count, set));
     *out = set;
@@ -202,8 +198,7 @@ otx_map_input_analysis(
     otx_analysis_class kind = OTX_ANALYSIS_LATTICE;
 
     *out = NULL;
-    if (!a)
-        return otx_fail_memory(run, "map");
+    OTX_TRY(otx_run_ok(run));
     if (options->exemplar_class)
         OTX_TRY(find_class(run, options->exemplar_class, &kind));
     if (!options->exemplar_class && !has_generators)

@@ -90,8 +90,7 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
     osdtex_mapping *handle = OTX_ZNEW(run->arena, osdtex_mapping, 1);
     otx_job job;
 
-    if (!handle)
-        return otx_fail_memory(run, "map");
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_call_options(run, &ours, sizeof ours, options));
     if (!exemplar || (ours.setting_count > 0 && !ours.settings) ||
         ours.setting_count < 0)

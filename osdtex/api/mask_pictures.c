@@ -70,8 +70,7 @@ take_tiles(
     uint8_t *found =
         OTX_ZNEW(run->scratch, uint8_t, OTX_UDIM_LAST - OTX_UDIM_FIRST + 1);
 
-    if (!tiles || !found)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_demand_tiles(run, surface, pattern, tiles));
     for (int32_t f = 0; f < face_count; ++f)
         if (tiles[f] != 0)

@@ -10,8 +10,7 @@ otx_method_settings_read(
 {
     void *values = otx_arena_zalloc(run->arena, method->settings_bytes, 1);
 
-    if (!values)
-        return otx_fail_memory(run, "map");
+    OTX_TRY(otx_run_ok(run));
     otx_option_defaults(method->options, method->option_count, values);
     for (int32_t i = 0; i < setting_count; ++i)
     {

@@ -147,8 +147,7 @@ look_of(
     if (material->map_kd)
     {
         texture = beside(run->arena, path, material->map_kd);
-        if (!texture)
-            return otx_fail_memory(run, "model");
+        OTX_TRY(otx_run_ok(run));
         if (otx_udim_name_is_pattern(texture))
             out->pattern = texture;
         else
@@ -190,8 +189,7 @@ use_libraries(loader *l)
         const char *name = l->obj->libraries.text[i];
         const char *path = beside(run->arena, l->obj->path, name);
 
-        if (!path)
-            return otx_fail_memory(run, "model");
+        OTX_TRY(otx_run_ok(run));
         if (access(path, F_OK) == 0)
             OTX_TRY(use_library(l, path));
         else
@@ -228,8 +226,7 @@ tile_texture(
     path = otx_udim_name_of(
         l->call->run.arena, pattern,
         otx_udim_tile((int32_t)column, (int32_t)row));
-    if (!path)
-        return otx_fail_memory(&l->call->run, "model");
+    OTX_TRY(otx_run_ok(&l->call->run));
     for (int32_t i = 0; i < size; ++i)
     {
         uvs[2 * (size_t)i] -= (float)column;
@@ -263,8 +260,7 @@ spread_uvs(loader *l)
     float *uvs = OTX_ZNEW(run->arena, float, 2 * (size_t)obj->corner_count);
     int32_t *face_texture = OTX_NEW(run->arena, int32_t, obj->face_count);
 
-    if (!uvs || !face_texture)
-        return otx_fail_memory(run, "model");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < obj->face_count; ++f)
     {
         const int32_t first = obj->face_first[f];
@@ -320,8 +316,7 @@ hole_faces(otx_run *run, const otx_obj *obj, otx_scene *scene)
     if (obj->hole_count == 0)
         return OSDTEX_OK;
     holes = OTX_ZNEW(run->arena, uint8_t, obj->face_count);
-    if (!holes)
-        return otx_fail_memory(run, "model");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < obj->hole_count; ++i)
         holes[obj->hole_faces[i]] = 1;
     scene->face_hole = holes;
@@ -338,8 +333,7 @@ load(loader *l)
     l->textures = OTX_ZNEW(run->arena, otx_scene_texture, slots);
     l->sources = OTX_ZNEW(run->arena, source, slots);
     l->looks = OTX_NEW(run->arena, material_look, materials);
-    if (!l->textures || !l->sources || !l->looks)
-        return otx_fail_memory(run, "model");
+    OTX_TRY(otx_run_ok(run));
     for (size_t m = 0; m < materials; ++m)
         l->looks[m] = (material_look){.texture = -1};
     OTX_TRY(use_libraries(l));
@@ -368,8 +362,7 @@ read_model(otx_call *call, const char *path, osdtex_model **out)
     otx_obj obj;
     loader l = {.call = call, .obj = &obj};
 
-    if (!handle)
-        return otx_fail_memory(run, "model");
+    OTX_TRY(otx_run_ok(run));
     if (!path)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
@@ -440,8 +433,7 @@ create_model(otx_call *call, const osdtex_mapping *mapping, osdtex_model **out)
     loader l = {.call = call};
     otx_exemplar exemplars[OTX_EXEMPLARS_MAX];
 
-    if (!handle)
-        return otx_fail_memory(run, "model");
+    OTX_TRY(otx_run_ok(run));
     if (!mapping)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
@@ -483,8 +475,7 @@ create_from_field(otx_run *run, const osdtex_field *field, osdtex_model **out)
     osdtex_model *handle = OTX_ZNEW(run->arena, osdtex_model, 1);
     const otx_level *leaf;
 
-    if (!handle)
-        return otx_fail_memory(run, "model");
+    OTX_TRY(otx_run_ok(run));
     if (!field)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,
@@ -557,8 +548,7 @@ join_field(
 {
     osdtex_model *handle = OTX_ZNEW(run->arena, osdtex_model, 1);
 
-    if (!handle)
-        return otx_fail_memory(run, "model");
+    OTX_TRY(otx_run_ok(run));
     if (!model || !field)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "model", OTX_NOWHERE,

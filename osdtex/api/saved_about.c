@@ -25,13 +25,12 @@ otx_saved_topology(otx_run *run, const otx_cage *cage, const char **out)
     int32_t *all = OTX_NEW(run->scratch, int32_t, faces + corners);
     char hash[OTX_HASH_TEXT_BYTES];
 
-    if (!all)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     memcpy(all, cage->face_first, faces * sizeof *all);
     memcpy(all + faces, cage->face_verts, corners * sizeof *all);
     otx_hash_text(all, (faces + corners) * sizeof *all, hash);
     *out = otx_arena_strdup(run->arena, hash);
-    return *out ? OSDTEX_OK : otx_fail_memory(run, STAGE);
+    return otx_run_ok(run);
 }
 
 /* ---- printing ---- */

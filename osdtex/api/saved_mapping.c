@@ -29,8 +29,7 @@ split_lookups(
 {
     *values = OTX_NEW(run->scratch, float, 3 * count);
     *fragments = OTX_NEW(run->scratch, int32_t, count);
-    if (!*values || !*fragments)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int64_t i = 0; i < count; ++i)
     {
         (*values)[3 * i] = l->items[i].uv[0];
@@ -47,8 +46,7 @@ list_fragments(otx_run *run, const otx_lookups *l, otx_tensors *out)
 {
     int32_t *list = OTX_NEW(run->scratch, int32_t, 2 * l->fragment_count);
 
-    if (!list)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < l->fragment_count; ++i)
     {
         if (l->fragments[i].mask)
@@ -154,8 +152,7 @@ save(otx_run *run, const osdtex_mapping *mapping, const char *path)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "no mapping or no path is given");
-    if (!tensors)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_saved_about_print(run, mapping, &tensors->about));
     OTX_TRY(gather(run, mapping, tensors));
     OTX_TRY(otx_atomic_file_begin(run, run->scratch, &set));
@@ -219,7 +216,7 @@ find_file(const loader *l, const char *named, const char **out)
             access(beside, F_OK) == 0)
         {
             *out = otx_arena_strdup(l->call->run.arena, beside);
-            return *out ? OSDTEX_OK : otx_fail_memory(&l->call->run, STAGE);
+            return otx_run_ok(&l->call->run);
         }
     }
     return OSDTEX_OK;
@@ -325,8 +322,7 @@ list_exemplars(const loader *l)
     osdtex_mapping *m = l->mapping;
     otx_exemplar *list = OTX_NEW(run->arena, otx_exemplar, OTX_EXEMPLARS_MAX);
 
-    if (!list)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     m->exemplars = list;
     m->source_count = l->about.exemplar_count;
     m->exemplar = l->exemplars[0];
@@ -379,8 +375,7 @@ join_lookups(const loader *l, const otx_level *leaf, otx_mapping *out)
         return damaged(l, "its lookups do not fit together");
     items = OTX_NEW(run->arena, otx_lookup, count);
     fragments = OTX_ZNEW(run->arena, otx_fragment, list->rows);
-    if (!lookups || !items || !fragments)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (first[f + 1] < first[f] || first[f + 1] > count ||
             (first[f + 1] - first[f]) % otx_level_face_size(leaf, f) != 0)
@@ -415,8 +410,7 @@ join_fields(const loader *l, const otx_level *leaf, otx_mapping *out)
     otx_guide *guide = OTX_ZNEW(run->arena, otx_guide, 1);
     otx_cell_map *cells = OTX_ZNEW(run->arena, otx_cell_map, 1);
 
-    if (!guide || !cells)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     *guide = (otx_guide){
         need(l, "guide", OTX_TENSOR_F64, leaf->face_count, 3),
         l->about.guide_symmetry, l->about.guide_angle};
@@ -453,8 +447,7 @@ join_arrays(const loader *l, otx_mapping *out)
         .patch_exemplar =
             need(l, "patch_exemplar", OTX_TENSOR_U8, l->about.patch_count, 0),
     };
-    if (!out->uvs || !out->face_patch)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     memcpy(out->uvs, uvs, 2 * sizeof *uvs * (size_t)leaf->corner_count);
     memcpy(out->face_patch, patch, sizeof *patch * (size_t)leaf->face_count);
     if (l->about.exemplar_count > 1 && !out->patch_exemplar)
@@ -502,8 +495,7 @@ load(loader *l)
 
     l->tensors = OTX_ZNEW(run->arena, otx_tensors, 1);
     l->mapping = OTX_ZNEW(run->arena, osdtex_mapping, 1);
-    if (!l->tensors || !l->mapping)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_tensors_read(run, l->path, l->tensors));
     OTX_TRY(otx_saved_about_parse(run, l->path, l->tensors->about, &l->about));
     OTX_TRY(read_cage(l));
@@ -520,8 +512,7 @@ read_mapping(
     loader *l = OTX_ZNEW(call->run.scratch, loader, 1);
     otx_status status;
 
-    if (!l)
-        return otx_fail_memory(&call->run, STAGE);
+    OTX_TRY(otx_run_ok(&call->run));
     if (!path)
         return otx_fail(
             &call->run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
@@ -567,8 +558,7 @@ inspect(
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "no path or nobody to tell is given");
-    if (!tensors || !about)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_tensors_read(run, path, tensors));
     OTX_TRY(otx_saved_about_parse(run, path, tensors->about, about));
     visit(user, tensors->about);

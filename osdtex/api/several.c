@@ -119,8 +119,7 @@ take_exemplars(
     otx_exemplar *list =
         OTX_NEW(run->arena, otx_exemplar, options->also_count + 1);
 
-    if (!list)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     list[0] = handle->exemplar->exemplar;
     handle->sources[0] = handle->exemplar;
     for (int32_t k = 0; k < options->also_count; ++k)
@@ -223,8 +222,7 @@ otx_several_take(
     if (options->also_count == 0)
         return OSDTEX_OK;
     demand = OTX_ZNEW(run->arena, uint8_t, leaf->face_count);
-    if (!demand)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(collect(run, options, handle, demand, &said));
     OTX_TRY(check_demand(run, options, handle, demand, said));
     handle->request.demand = demand;

@@ -40,8 +40,7 @@ refine(
     osdtex_surface *handle = OTX_ZNEW(run->arena, osdtex_surface, 1);
     int32_t level;
 
-    if (!handle)
-        return otx_fail_memory(run, "surface");
+    OTX_TRY(otx_run_ok(run));
     if (!cage)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "surface", OTX_NOWHERE,

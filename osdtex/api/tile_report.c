@@ -34,8 +34,7 @@ add_levels(otx_run *run, const osdtex_mapping *mapping, json_t *list)
     const int32_t count = otx_pyramid_count(picture->width, picture->height);
     otx_image *levels = OTX_NEW(run->arena, otx_image, count);
 
-    if (!levels)
-        return otx_fail_memory(run, "report");
+    OTX_TRY(otx_run_ok(run));
     levels[0] = *picture;
     OTX_TRY(otx_tile_layout_levels(
         run, run->arena, &exemplar->tiles, picture, levels + 1));
@@ -84,8 +83,7 @@ otx_tile_report_add(otx_run *run, const osdtex_mapping *mapping, json_t *root)
     levels = json_array();
     json_object_set_new(root, "tiles", tiles);
     json_object_set_new(tiles, "mismatch_by_mip_level", levels);
-    if (!tiles || !levels)
-        return otx_fail_memory(run, "report");
+    OTX_TRY(otx_run_ok(run));
     set_int(tiles, "boundaries", layout->boundaries);
     set_int(tiles, "corners", layout->corners);
     set_int(tiles, "tile_size", layout->cell);

@@ -24,8 +24,7 @@ choose_edges(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "no edge templates are given");
     edges = OTX_NEW(run->arena, otx_tileset_edge, options->edge_count);
-    if (!edges)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < options->edge_count; ++i)
     {
         const osdtex_tiles_edge *e = &options->edges[i];

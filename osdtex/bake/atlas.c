@@ -302,8 +302,7 @@ otx_atlas_pack(
     *out = (otx_atlas){0};
     OTX_TRY(check(run, options));
     out->uvs = OTX_NEW(run->arena, float, 2 * (size_t)cage->corner_count);
-    if (!extents || !p.order || !p.cells || !p.places || !out->uvs)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_extent_measure(run, surface, extents));
     if (!sort_faces(run->scratch, &p))
         return otx_fail_memory(run, STAGE);

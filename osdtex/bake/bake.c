@@ -132,8 +132,7 @@ bake_levels(
     otx_mip mip = {.layout = layout, .tile = tile};
     job *j = OTX_ZNEW(run->scratch, job, 1);
 
-    if (!j)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     j->next.slot = BATCH;
     j->bake = bake;
     j->sink = sink;

@@ -25,8 +25,7 @@ use_own(otx_run *run, otx_layout *out)
     const int32_t corners = otx_surface_leaf(surface)->corner_count;
     float *leaf_uvs = OTX_NEW(run->arena, float, 2 * (size_t)corners);
 
-    if (!leaf_uvs)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t c = 0; c < corners; ++c)
         memcpy(
             leaf_uvs + 2 * (size_t)c,
@@ -51,8 +50,7 @@ make_atlas(otx_run *run, const otx_layout_options *options, otx_layout *out)
     int32_t *face_uvs = OTX_NEW(run->arena, int32_t, cage_corners);
     otx_atlas atlas;
 
-    if (!leaf_uvs || !face_uvs)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_atlas_pack(run, surface, &how, &atlas));
     otx_atlas_tell(run, &atlas);
     OTX_TRY(otx_fvar_linear(run, surface, atlas.uvs, leaf_uvs));
@@ -121,8 +119,7 @@ find_covered(otx_run *run, const otx_mapping *mapping, otx_layout *out)
     uint8_t *covered = OTX_NEW(run->arena, uint8_t, leaf->face_count);
     int32_t count = 0;
 
-    if (!covered)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {
         const int32_t first = leaf->face_first[f],
@@ -199,8 +196,7 @@ find_rims(otx_run *run, otx_layout *out)
     const otx_level *leaf = otx_surface_leaf(out->surface);
     uint8_t *rim = OTX_ZNEW(run->arena, uint8_t, leaf->corner_count);
 
-    if (!rim)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
         for (int32_t k = 0; out->covered[f] && k < otx_level_face_size(leaf, f);
              ++k)
@@ -242,8 +238,7 @@ find_charts(otx_run *run, otx_layout *out)
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     int32_t *queue = OTX_NEW(run->scratch, int32_t, leaf->face_count);
 
-    if (!chart || !queue)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     memset(chart, -1, (size_t)leaf->face_count * sizeof *chart);
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (out->covered[f] && chart[f] < 0)
@@ -389,8 +384,7 @@ list_tiles(otx_run *run, otx_layout *out, int32_t *counts)
     tiles = OTX_NEW(run->arena, int32_t, out->tile_count);
     first = OTX_NEW(run->arena, int32_t, out->tile_count + 1);
     faces = OTX_NEW(run->arena, int32_t, total);
-    if (!tiles || !first || !faces)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     first[0] = 0;
     for (int32_t i = 0, t = 0; i < numbers; ++i)
     {

@@ -11,8 +11,7 @@ otx_cluster_faces(otx_run *run, const otx_dual *dual, otx_cluster_list *out)
 
     *out = (otx_cluster_list){0};
     out->clusters = OTX_NEW(run->arena, otx_cluster, level->face_count);
-    if (!faces || !out->clusters)
-        return otx_fail_memory(run, "cluster");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < level->face_count; ++f)
     {
         if (level->face_hole[f])
@@ -62,8 +61,7 @@ otx_cluster_children(
     count = level->face_child_first[cluster->faces[0] + 1] - first;
     faces = OTX_NEW(run->arena, int32_t, count);
     out->clusters = OTX_NEW(run->arena, otx_cluster, count);
-    if (!faces || !out->clusters)
-        return otx_fail_memory(run, "cluster");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < count; ++i)
     {
         faces[i] = first + i;

@@ -107,9 +107,7 @@ otx_dual_build(
     out->areas = OTX_NEW(run->arena, double, l->face_count);
     if (surface->density)
         out->densities = OTX_NEW(run->arena, double, l->face_count);
-    if (!out->centroids || !out->normals || !out->areas ||
-        (surface->density && !out->densities))
-        return otx_fail_memory(run, "cluster");
+    OTX_TRY(otx_run_ok(run));
     return otx_pool_for(
         run->pool, (l->face_count + FACES_PER_TASK - 1) / FACES_PER_TASK,
         measure_faces, &job);

@@ -245,8 +245,7 @@ collect(growth *g, otx_cluster_list *out)
     int32_t *first = OTX_ZNEW(run->scratch, int32_t, n + 1);
 
     out->clusters = OTX_NEW(run->arena, otx_cluster, n);
-    if (!faces || !first || !out->clusters)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < g->region->face_count; ++i)
         ++first[g->owner[g->region->faces[i]] + 1];
     for (int32_t s = 0; s < n; ++s)
@@ -280,8 +279,7 @@ grow_regions(
     g.owner = OTX_NEW(run->scratch, int32_t, n);
     g.distance = OTX_NEW(run->scratch, double, n);
     g.seeds = OTX_NEW(run->scratch, int32_t, region->face_count);
-    if (!g.owner || !g.distance || !g.seeds)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     memset(g.owner, OUTSIDE, (size_t)n * sizeof *g.owner);
     g.far = otx_pqueue_make(run->scratch);
     OTX_TRY(otx_loop_result(run, STAGE, place_seeds(&g, &queue, wanted)));
@@ -333,8 +331,7 @@ without_holes(
 {
     int32_t *faces = OTX_NEW(run->scratch, int32_t, region->face_count);
 
-    if (!faces)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     *out = (otx_cluster){region->level, 0, faces, 0.0};
     for (int32_t i = 0; i < region->face_count; ++i)
     {
@@ -416,8 +413,7 @@ otx_cluster_grow(
     otx_cluster solid;
 
     *out = (otx_cluster_list){0};
-    if (!member)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(without_holes(run, dual, region, &solid));
     if (solid.face_count > 0)
         OTX_TRY(grow_discs(

@@ -86,8 +86,7 @@ otx_colour_open(
     if (file && file[0])
     {
         out->path = otx_arena_strdup(run->arena, file);
-        if (!out->path)
-            return otx_fail_memory(run, stage);
+        OTX_TRY(otx_run_ok(run));
         status = otx_ocio_is_carried(out->path)
                      ? open_carried(run, out->path, &config, message)
                      : otx_ocio_open(out->path, &config, message);
@@ -178,8 +177,7 @@ convert_rows(
     job.image = image;
     job.messages =
         otx_arena_zalloc(run->scratch, threads, OTX_OCIO_MESSAGE_BYTES);
-    if (!job.messages)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
 
     const otx_status status =
         otx_pool_for(run->pool, image->height, convert_row, &job);

@@ -114,8 +114,7 @@ otx_decoder_apply(otx_run *run, const otx_decoder *decoder, otx_image *image)
     otx_status status;
 
     j.rows = OTX_NEW(run->scratch, float, 3 * (size_t)image->width * threads);
-    if (!j.rows)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     status = otx_pool_for(run->pool, image->height, decode_row, &j);
     otx_arena_release(run->scratch, mark);
     return status;
@@ -308,8 +307,7 @@ otx_decoder_create(
     bool found = false;
 
     *out = NULL;
-    if (!d)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(find(run, colour, source, is_linear, d, &found));
     if (!found)
         return OSDTEX_OK;

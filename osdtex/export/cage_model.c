@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-static const char STAGE[] = "export";
-
 otx_fvar
 otx_cage_model_fvar(const otx_layout *layout)
 {
@@ -35,8 +33,7 @@ list_holes(otx_run *run, const otx_cage *cage, otx_obj *out)
 {
     int32_t *holes = OTX_NEW(run->scratch, int32_t, cage->face_count);
 
-    if (!holes)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     out->hole_count = 0;
     for (int32_t f = 0; f < cage->face_count; ++f)
         if (cage->face_hole[f])
@@ -56,8 +53,7 @@ list_materials(
     int32_t *indices = OTX_NEW(run->scratch, int32_t, cage->face_count);
     int32_t used = count, spare = -1;
 
-    if (!names || !indices)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < count; ++i)
     {
         names[i] = cage->material_names[i];
@@ -120,8 +116,7 @@ otx_cage_model_obj(
     const otx_cage *cage = layout->surface->cage;
     const char **libraries = OTX_NEW(run->scratch, const char *, 1);
 
-    if (!libraries)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     *libraries = library;
     *out = (otx_obj){
         .path = path,

@@ -267,8 +267,7 @@ list_normals(builder *b, otx_corner_normals *out)
     int32_t *of_vert = OTX_NEW(b->run->scratch, int32_t, leaf->vert_count);
     const otx_vec3 *sums = side_sums(b);
 
-    if (!normals || !indices || !of_vert || !sums)
-        return otx_fail_memory(b->run, STAGE);
+    OTX_TRY(otx_run_ok(b->run));
     for (int32_t v = 0; v < leaf->vert_count; ++v)
         of_vert[v] = -1;
     out->count = 0;
@@ -331,8 +330,7 @@ otx_corner_normals_of_cage(
     OTX_TRY(otx_corner_normals_build(run, surface, &all));
     normals = OTX_NEW(run->scratch, float, 3 * (size_t)cage->corner_count);
     number = OTX_NEW(run->scratch, int32_t, all.count);
-    if (!indices || !normals || !number)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < all.count; ++i)
         number[i] = -1;
     *out = (otx_corner_normals){0, normals, indices};

@@ -157,8 +157,7 @@ make_slots(otx_run *run, target *t)
     for (int32_t i = 0; i < OTX_BAKE_SLOTS; ++i)
     {
         t->chunks[i].bytes = OTX_NEW(run->scratch, uint8_t, bytes);
-        if (!t->chunks[i].bytes)
-            return otx_fail_memory(run, STAGE);
+        OTX_TRY(otx_run_ok(run));
     }
     return OSDTEX_OK;
 }
@@ -206,8 +205,7 @@ write_preview(const writer *w, int32_t tile, otx_image *image)
 
     tile_suffix(OTX_TEXEL_COLOR, tile, ".png", suffix);
     path = path_of(w, suffix);
-    if (!path)
-        return otx_fail_memory(w->run, STAGE);
+    OTX_TRY(otx_run_ok(w->run));
     unassociate(image);
     if (display)
         OTX_TRY(otx_colour_convert(
@@ -232,8 +230,7 @@ write_png_tile(const writer *w, otx_bake *bake, int32_t tile)
 
     tile_suffix(OTX_TEXEL_COLOR, w->layout->tiles[tile], ".png", suffix);
     path = path_of(w, suffix);
-    if (!path)
-        return otx_fail_memory(w->run, STAGE);
+    OTX_TRY(otx_run_ok(w->run));
     OTX_TRY(otx_image_create(
         w->run, w->run->scratch, side, side, bake->source.channels,
         &t.preview));
@@ -260,8 +257,7 @@ write_tile(const writer *w, otx_bake *bake, int32_t tile, bool preview)
 
     tile_suffix(kind, w->layout->tiles[tile], ".exr", suffix);
     path = path_of(w, suffix);
-    if (!path)
-        return otx_fail_memory(w->run, STAGE);
+    OTX_TRY(otx_run_ok(w->run));
     if (preview)
     {
         for (t.preview_level = 0; side >> t.preview_level > PREVIEW_SIDE;)
@@ -319,8 +315,7 @@ write_mtl(
     const otx_mtl mtl = {path, materials->count, list};
     const char *temporary;
 
-    if (!path || !list || !texture)
-        return otx_fail_memory(w->run, STAGE);
+    OTX_TRY(otx_run_ok(w->run));
     for (int32_t i = 0; i < materials->count; ++i)
         list[i] = (otx_mtl_material){
             .name = materials->text[i],
@@ -362,8 +357,7 @@ list_comments(
     char *rule = OTX_NEW(w->run->scratch, char, bytes);
     char *tiles = tiles_comment(w);
 
-    if (!list || !rule || !tiles)
-        return otx_fail_memory(w->run, STAGE);
+    OTX_TRY(otx_run_ok(w->run));
     for (int32_t i = 0; i < count; ++i)
         list[i] = w->options->comments[i];
     snprintf(
@@ -386,8 +380,7 @@ write_cage(const writer *w)
     const char *temporary;
     otx_obj obj;
 
-    if (!path || !library)
-        return otx_fail_memory(w->run, STAGE);
+    OTX_TRY(otx_run_ok(w->run));
     OTX_TRY(list_comments(w, &how.comments, &how.comment_count));
     OTX_TRY(otx_cage_model_obj(
         w->run, w->layout, path, library, w->names.stem, &obj));
@@ -426,8 +419,7 @@ write_usda(const writer *w)
     const char *temporary;
     otx_usda usda;
 
-    if (!path)
-        return otx_fail_memory(w->run, STAGE);
+    OTX_TRY(otx_run_ok(w->run));
     otx_cage_model_usda(w->layout, w->names.stem, &usda);
     usda.texture = color_name(w);
     usda.interop_id = otx_texture_file_interop_id(w->exemplars);
@@ -446,8 +438,7 @@ write_usda(const writer *w)
     usda.meters_per_unit = w->options->meters_per_unit > 0.0
                                ? w->options->meters_per_unit
                                : unit_of(w->exemplars->receiver);
-    if (!usda.texture)
-        return otx_fail_memory(w->run, STAGE);
+    OTX_TRY(otx_run_ok(w->run));
     OTX_TRY(list_comments(w, &usda.comments, &usda.comment_count));
     OTX_TRY(otx_atomic_file_add(w->run, w->set, path, &temporary));
     return otx_usda_write(w->run, &usda, temporary, path);
@@ -462,8 +453,7 @@ write_mtlx(const writer *w)
         otx_texture_file_interop_id(w->exemplars)};
     const char *temporary;
 
-    if (!path || !mtlx.texture)
-        return otx_fail_memory(w->run, STAGE);
+    OTX_TRY(otx_run_ok(w->run));
     OTX_TRY(otx_atomic_file_add(w->run, w->set, path, &temporary));
     return otx_mtlx_write(w->run, &mtlx, temporary, path);
 }

@@ -48,9 +48,7 @@ allocate_faces(otx_run *run, const otx_level *leaf, leaf_faces *out)
         .parents = OTX_NEW(run->scratch, int32_t, leaf->face_count),
         .sources = OTX_NEW(run->scratch, uint8_t, leaf->face_count),
     };
-    if (!out->first || !out->verts || !out->corners || !out->uvs ||
-        !out->parents || !out->sources)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     out->first[0] = 0;
     return OSDTEX_OK;
 }
@@ -123,8 +121,7 @@ pool_uvs(
     int32_t *spread = OTX_NEW(run->scratch, int32_t, faces->corner_count);
     int32_t count = 0;
 
-    if (!verts || !uvs || !spread)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < faces->count; ++f)
     {
         const bool hole = is_plain(surface) && is_hole(surface, f);
@@ -162,8 +159,7 @@ carry_names(
     if (!cage_faces || count == 0)
         return OSDTEX_OK;
     carried = OTX_NEW(run->scratch, int32_t, faces->count);
-    if (!carried)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < faces->count; ++f)
         carried[f] = cage_faces[faces->parents[f]];
     *names = (otx_obj_names){count, text};
@@ -193,8 +189,7 @@ carry_materials(
     int32_t used = count;
     int32_t spare = find_name(cage->material_names, count, fallback);
 
-    if (!names || !indices)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     if (count > 0)
         memcpy(names, cage->material_names, (size_t)count * sizeof *names);
     for (int32_t f = 0; f < faces->count; ++f)
@@ -267,11 +262,9 @@ divide_materials(
 
     out->names = OTX_NEW(run->scratch, const char *, most);
     out->sources = OTX_NEW(run->scratch, int32_t, most);
-    if (!counts || !index || !indices || !out->names || !out->sources)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     main = main_sources(run, faces, obj, counts);
-    if (!main)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < most; ++i)
     {
         const int32_t k = i % OTX_EXEMPLARS_MAX;
@@ -303,7 +296,7 @@ list_materials(otx_run *run, const otx_obj *obj, material_list *out)
     out->count = obj->materials.count;
     out->names = NULL;
     out->sources = OTX_ZNEW(run->scratch, int32_t, out->count);
-    return out->sources ? OSDTEX_OK : otx_fail_memory(run, STAGE);
+    return otx_run_ok(run);
 }
 
 static void
@@ -346,8 +339,7 @@ add_normals(
     otx_corner_normals all;
 
     OTX_TRY(otx_corner_normals_build(run, surface, &all));
-    if (!indices)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t c = 0; c < faces->corner_count; ++c)
         indices[c] = all.indices[faces->corners[c]];
     obj->normal_count = all.count;
@@ -367,8 +359,7 @@ describe_obj(
     otx_uv_pool pool;
     const int32_t *face_uvs = NULL;
 
-    if (!library)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     *library = names->mtl_name;
     OTX_TRY(gather_faces(run, mapping, &faces));
     OTX_TRY(pool_uvs(run, mapping->surface, &faces, &pool, &face_uvs));
@@ -434,8 +425,7 @@ write_mtl(
     const otx_mtl mtl = {names->mtl, materials->count, list};
     const char *temporary;
 
-    if (!list)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < materials->count; ++i)
         list[i] = (otx_mtl_material){
             .name = obj->materials.text[i],

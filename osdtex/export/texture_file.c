@@ -17,8 +17,7 @@ describe_tiles(
     otx_exr_attribute *list = OTX_ZNEW(run->scratch, otx_exr_attribute, 3);
     const char *text = otx_tile_layout_print(run->scratch, layout);
 
-    if (!list || !text)
-        return otx_fail_memory(run, "export");
+    OTX_TRY(otx_run_ok(run));
     list[0] = (otx_exr_attribute){
         .name = "osdtex:tiles", .kind = OTX_EXR_TEXT, .text = text};
     list[1] = (otx_exr_attribute){

@@ -211,8 +211,7 @@ otx_connection_defects(otx_run *run, const otx_connection *c, double **out)
     double *defects = OTX_NEW(run->arena, double, level->vert_count);
     const uint8_t *inside = mark_inside(run, c);
 
-    if (!defects || !inside)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t v = 0; v < level->vert_count; ++v)
         defects[v] = inside[v] ? 2.0 * OTX_PI : NAN;
     for (int32_t f = 0; f < level->face_count; ++f)

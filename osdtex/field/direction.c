@@ -49,8 +49,7 @@ otx_direction_refine(
     *out = (otx_direction){
         finer, field->symmetry,
         OTX_NEW(run->arena, otx_vec2, finer->level->face_count)};
-    if (!out->powers)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < finer->level->face_count; ++f)
     {
         int32_t parent = f;
@@ -100,8 +99,7 @@ otx_direction_coarsen(
 
     *out = (otx_direction){
         coarser, field->symmetry, OTX_ZNEW(run->arena, otx_vec2, count)};
-    if (!out->powers)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     gather(field, coarser, out->powers);
     for (int32_t f = 0; f < count; ++f)
         out->powers[f] = otx_direction_unit(out->powers[f], (otx_vec2){1, 0});

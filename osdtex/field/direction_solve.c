@@ -353,8 +353,7 @@ otx_direction_solve(
     OTX_TRY(otx_direction_check(run, connection, request));
     *out = (otx_direction){
         connection, request->symmetry, OTX_NEW(run->arena, otx_vec2, count)};
-    if (!out->powers)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < count; ++f)
         out->powers[f] = (otx_vec2){1, 0};
     status = solve(&s, NULL);
@@ -421,8 +420,7 @@ otx_direction_from_vectors(
     OTX_TRY(check(run, &request));
     *out = (otx_direction){
         connection, symmetry, OTX_NEW(run->arena, otx_vec2, count)};
-    if (!out->powers || !silent)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     if (take_vectors(out, vectors, silent) > 0)
         OTX_TRY(otx_direction_edit(run, &request, silent, out));
     otx_arena_release(run->scratch, mark);

@@ -76,7 +76,7 @@ read_exemplar(
     if (name && *name)
     {
         out->exemplar_name = otx_arena_strdup(run->arena, name);
-        return out->exemplar_name ? OSDTEX_OK : otx_fail_memory(run, stage);
+        return otx_run_ok(run);
     }
     if (number < 1 || number > INT16_MAX)
         return refuse(
@@ -172,8 +172,7 @@ read_items(otx_run *run, json_t *list, otx_constraint_file *out)
     if (!json_is_array(list))
         return refuse(run, out->path, -1, "constraints", "is a list");
     out->lines = OTX_NEW(run->arena, otx_constraint_line, count);
-    if (!out->lines)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     for (; out->count < (int32_t)count; ++out->count)
         OTX_TRY(read_item(
             run, out->path, out->count,
@@ -357,8 +356,7 @@ read_csv(otx_run *run, otx_text *text, otx_constraint_file *out)
         ++capacity;
     otx_text_rewind(text);
     out->lines = OTX_NEW(run->arena, otx_constraint_line, capacity);
-    if (!out->lines)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     while (otx_text_next(text))
     {
         const otx_token line = otx_text_remainder(text);
@@ -397,8 +395,7 @@ otx_constraint_file_read(
 
     *out = (otx_constraint_file){
         .path = otx_arena_strdup(run->arena, path), .is_table = is_csv(path)};
-    if (!out->path)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_text_read(run, stage, path, BYTES_MAX, &text));
     status =
         out->is_table ? read_csv(run, &text, out) : read_json(run, &text, out);

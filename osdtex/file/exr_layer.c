@@ -202,8 +202,7 @@ add_candidate(candidate_list *list, candidate c, const char *part, size_t dot)
     exr_get_channels(list->file, c.layer.part, &channels);
     entry = channels->entries[c.layer.channels[0]].name.str;
     c.name = full_name(list->run->arena, part, entry, dot);
-    if (!c.name)
-        return otx_fail_memory(list->run, "picture");
+    OTX_TRY(otx_run_ok(list->run));
     if (is_data(c.name))
         c.rank = RANK_DATA;
     else if (c.rank == RANK_PLAIN && !is_beauty(part))
@@ -257,8 +256,7 @@ find_candidates(candidate_list *list, int part_count)
         if (exr_get_channels(list->file, part, &channels) == EXR_ERR_SUCCESS)
             list->capacity += channels->num_channels;
     list->items = OTX_NEW(list->run->scratch, candidate, list->capacity);
-    if (!list->items)
-        return otx_fail_memory(list->run, "picture");
+    OTX_TRY(otx_run_ok(list->run));
     for (int part = 0; part < part_count; ++part)
         OTX_TRY(add_part(list, part));
     return OSDTEX_OK;

@@ -67,8 +67,7 @@ put_level(
     const int64_t count = (int64_t)columns * rows;
     batch *b = OTX_ZNEW(run->scratch, batch, 1);
 
-    if (!b)
-        return otx_fail_memory(run, "picture");
+    OTX_TRY(otx_run_ok(run));
     b->writer = writer;
     b->image = image;
     b->level = level;
@@ -78,8 +77,7 @@ put_level(
     for (int32_t i = 0; i < BATCH && i < count; ++i)
     {
         b->chunks[i].bytes = OTX_NEW(run->scratch, uint8_t, bytes);
-        if (!b->chunks[i].bytes)
-            return otx_fail_memory(run, "picture");
+        OTX_TRY(otx_run_ok(run));
     }
     while (b->first < count)
         OTX_TRY(put_chunks(run, writer, b, count));

@@ -375,14 +375,12 @@ make_packers(otx_run *run, otx_exr_writer *w)
     const int32_t count = otx_pool_threads(run->pool);
 
     w->packers = OTX_ZNEW(run->scratch, otx_exr_packer, count);
-    if (!w->packers)
-        return otx_fail_memory(run, "picture");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < count; ++i)
     {
         w->packers[i].rows = OTX_NEW(run->scratch, uint8_t, bytes);
         w->packers[i].split = OTX_NEW(run->scratch, uint8_t, bytes);
-        if (!w->packers[i].rows || !w->packers[i].split)
-            return otx_fail_memory(run, "picture");
+        OTX_TRY(otx_run_ok(run));
     }
     w->packer_count = count;
     return OSDTEX_OK;

@@ -259,7 +259,6 @@ otx_jpeg_file_read(otx_run *run, const char *path, otx_picture *out)
     out->bits = 8;
     out->is_gray = r->jpeg.num_components == 1;
     r->row = OTX_NEW(run->scratch, JSAMPLE, (size_t)out->image.width * 3);
-    if (!r->row)
-        return otx_fail_memory(run, "picture");
+    OTX_TRY(otx_run_ok(run));
     return reader_rows(r) ? OSDTEX_OK : reader_failed(run, path, r);
 }

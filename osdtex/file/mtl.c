@@ -122,7 +122,7 @@ read_map(reader *r, otx_mtl_material *material)
     if (name.begin == name.end)
         return OSDTEX_OK;
     material->map_kd = otx_token_copy(r->run->arena, name);
-    return material->map_kd ? OSDTEX_OK : otx_fail_memory(r->run, STAGE);
+    return otx_run_ok(r->run);
 }
 
 static otx_status
@@ -134,8 +134,7 @@ begin_material(reader *r)
         .name = otx_token_copy(r->run->arena, otx_text_remainder(&r->text)),
         .diffuse = {1, 1, 1},
         .line = r->text.line};
-    if (!material->name)
-        return otx_fail_memory(r->run, STAGE);
+    OTX_TRY(otx_run_ok(r->run));
     ++r->count;
     return OSDTEX_OK;
 }
@@ -168,7 +167,7 @@ create_materials(reader *r)
         count +=
             otx_text_token(&r->text, &word) && otx_token_is(word, "newmtl");
     r->materials = OTX_NEW(r->run->arena, otx_mtl_material, count);
-    return r->materials ? OSDTEX_OK : otx_fail_memory(r->run, STAGE);
+    return otx_run_ok(r->run);
 }
 
 static otx_status
@@ -177,8 +176,7 @@ read_mtl(reader *r, otx_mtl *out)
     const char *path = otx_arena_strdup(r->run->arena, r->text.name);
     otx_token word;
 
-    if (!path)
-        return otx_fail_memory(r->run, STAGE);
+    OTX_TRY(otx_run_ok(r->run));
     OTX_TRY(create_materials(r));
     otx_text_rewind(&r->text);
     while (otx_text_next(&r->text))

@@ -107,8 +107,7 @@ otx_mtlx_write(
     otx_text_out *out;
     otx_status status;
 
-    if (!name)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     status = otx_text_out_open(run, STAGE, path, title, &out);
     if (status == OSDTEX_OK)
     {

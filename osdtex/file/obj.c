@@ -106,8 +106,7 @@ read_color(reader *r, const double color[3])
     if (!r->colors)
     {
         r->colors = OTX_NEW(r->run->arena, float, count);
-        if (!r->colors)
-            return otx_fail_memory(r->run, STAGE);
+        OTX_TRY(otx_run_ok(r->run));
         for (size_t i = 0; i < count; ++i)
             r->colors[i] = 1.0f;
     }
@@ -306,8 +305,7 @@ read_name(reader *r, element kind)
     const int i = (int)kind - ELEMENT_GROUP;
 
     return otx_obj_names_add(
-        r->run, STAGE, &r->names[i], otx_text_remainder(&r->text),
-        &r->current[i]);
+        r->run, &r->names[i], otx_text_remainder(&r->text), &r->current[i]);
 }
 
 static otx_status
@@ -317,7 +315,7 @@ read_library(reader *r, element kind)
 
     (void)kind;
     return otx_obj_names_add(
-        r->run, STAGE, &r->libraries, otx_text_remainder(&r->text), &index);
+        r->run, &r->libraries, otx_text_remainder(&r->text), &index);
 }
 
 static otx_status
@@ -477,20 +475,17 @@ create_arrays(reader *r)
     r->face_uvs = OTX_NEW(arena, int32_t, r->corners);
     r->face_line = OTX_NEW(arena, int64_t, faces);
     r->point_lines = OTX_NEW(arena, char, r->point_line_bytes);
-    if (!r->places || !r->points || !r->point_lines || !r->uvs ||
-        !r->face_first || !r->face_verts || !r->face_uvs || !r->face_line)
-        return otx_fail_memory(r->run, STAGE);
+    OTX_TRY(otx_run_ok(r->run));
     for (int i = 0; i < ATTRIBUTE_COUNT; ++i)
     {
         r->current[i] = -1;
         r->attribute[i] = OTX_NEW(arena, int32_t, faces);
-        if (!r->attribute[i])
-            return otx_fail_memory(r->run, STAGE);
+        OTX_TRY(otx_run_ok(r->run));
         OTX_TRY(otx_obj_names_create(
-            r->run, STAGE, (int32_t)r->lines[ELEMENT_GROUP + i], &r->names[i]));
+            r->run, (int32_t)r->lines[ELEMENT_GROUP + i], &r->names[i]));
     }
     OTX_TRY(otx_obj_names_create(
-        r->run, STAGE, (int32_t)r->lines[ELEMENT_LIBRARY], &r->libraries));
+        r->run, (int32_t)r->lines[ELEMENT_LIBRARY], &r->libraries));
     return otx_obj_tags_create(r->run, r->tag_values, &r->tags);
 }
 
@@ -580,8 +575,7 @@ finish(const reader *r, otx_obj *out)
         .smooths = otx_obj_names_view(&r->names[3]),
         .libraries = otx_obj_names_view(&r->libraries)};
 
-    if (!obj.path)
-        return otx_fail_memory(r->run, STAGE);
+    OTX_TRY(otx_run_ok(r->run));
     for (int32_t face = 0; face < r->face_count; ++face)
         OTX_TRY(check_face(r, face));
     take_origin(r, &obj);

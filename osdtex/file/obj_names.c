@@ -4,8 +4,7 @@
 #include <string.h>
 
 otx_status
-otx_obj_names_create(
-    otx_run *run, const char *stage, int32_t capacity, otx_obj_names_table *out)
+otx_obj_names_create(otx_run *run, int32_t capacity, otx_obj_names_table *out)
 {
     size_t slots = 2;
 
@@ -15,16 +14,14 @@ otx_obj_names_create(
         .text = OTX_NEW(run->arena, const char *, capacity),
         .slots = OTX_NEW(run->scratch, int32_t, slots),
         .slot_mask = (uint32_t)(slots - 1)};
-    if (!out->text || !out->slots)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     memset(out->slots, 0xFF, slots * sizeof *out->slots);
     return OSDTEX_OK;
 }
 
 otx_status
 otx_obj_names_add(
-    otx_run *run, const char *stage, otx_obj_names_table *table, otx_token name,
-    int32_t *index)
+    otx_run *run, otx_obj_names_table *table, otx_token name, int32_t *index)
 {
     uint32_t slot = otx_token_hash(name) & table->slot_mask;
     const char *copy;
@@ -41,8 +38,7 @@ otx_obj_names_add(
         }
     }
     copy = otx_token_copy(run->arena, name);
-    if (!copy)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     *index = table->slots[slot] = table->count;
     table->text[table->count++] = copy;
     return OSDTEX_OK;

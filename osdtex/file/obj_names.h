@@ -14,14 +14,12 @@ typedef struct otx_obj_names_table
 } otx_obj_names_table;
 
 /* A table that `capacity` different names fit into. MEMORY. */
-otx_status otx_obj_names_create(
-    otx_run *run, const char *stage, int32_t capacity,
-    otx_obj_names_table *out);
+otx_status
+otx_obj_names_create(otx_run *run, int32_t capacity, otx_obj_names_table *out);
 
 /* *index of `name`, which is added if it is new; -1 for an empty name. */
 otx_status otx_obj_names_add(
-    otx_run *run, const char *stage, otx_obj_names_table *table, otx_token name,
-    int32_t *index);
+    otx_run *run, otx_obj_names_table *table, otx_token name, int32_t *index);
 
 otx_obj_names otx_obj_names_view(const otx_obj_names_table *table);
 

@@ -40,8 +40,7 @@ create_list(
         .line = OTX_NEW(run->arena, int64_t, items)};
     if (sharp)
         out->sharpness = OTX_NEW(run->arena, float, items);
-    if (!out->indices || !out->line || (sharp && !out->sharpness))
-        return otx_fail_memory(run, "obj");
+    OTX_TRY(otx_run_ok(run));
     return OSDTEX_OK;
 }
 

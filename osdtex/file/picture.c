@@ -96,8 +96,7 @@ otx_picture_keep_icc(
         return OSDTEX_OK;
     }
     copy = OTX_NEW(run->arena, uint8_t, size > 0 ? size : 1);
-    if (!copy)
-        return otx_fail_memory(run, "picture");
+    OTX_TRY(otx_run_ok(run));
     memcpy(copy, bytes, size);
     out->icc = copy;
     out->icc_bytes = size;

@@ -137,8 +137,7 @@ keep_chunks(reader *r)
     if (strncmp(r->warning, "iCCP", 4) == 0)
     {
         r->out->icc_fault = otx_arena_strdup(r->run->arena, r->warning);
-        if (!r->out->icc_fault)
-            return otx_fail_memory(r->run, "picture");
+        OTX_TRY(otx_run_ok(r->run));
         r->warning[0] = '\0';
     }
     return OSDTEX_OK;
@@ -223,8 +222,7 @@ read_pixels(reader *r)
     uint8_t *bytes = otx_arena_alloc(r->run->scratch, height, r->row_bytes);
     png_bytepp rows = OTX_NEW(r->run->scratch, png_bytep, height);
 
-    if (!bytes || !rows)
-        return otx_fail_memory(r->run, "picture");
+    OTX_TRY(otx_run_ok(r->run));
     for (int32_t y = 0; y < height; ++y)
         rows[y] = bytes + (size_t)y * r->row_bytes;
     if (!reader_rows(r, rows))

@@ -249,8 +249,7 @@ read_header(const reader *r, json_t *root, otx_tensors *out)
             if (!about)
                 continue;
             out->about = otx_arena_strdup(r->run->arena, about);
-            if (!out->about)
-                return otx_fail_memory(r->run, STAGE);
+            OTX_TRY(otx_run_ok(r->run));
             continue;
         }
         if (out->count == OTX_TENSORS_MAX)
@@ -293,8 +292,7 @@ otx_tensors_parse(
     {
         uint8_t *copy = OTX_NEW(run->arena, uint8_t, r.data_bytes);
 
-        if (!copy)
-            return otx_fail_memory(run, STAGE);
+        OTX_TRY(otx_run_ok(run));
         memcpy(copy, r.data, (size_t)r.data_bytes);
         r.data = copy;
     }
@@ -338,8 +336,7 @@ slurp(otx_run *run, const char *path, uint8_t **bytes, size_t *size)
         got += n > 0 ? (size_t)n : 0;
     }
     close(file);
-    if (!*bytes)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     if (got < *size)
         return otx_fail(
             run, OSDTEX_ERROR_IO, STAGE, where,

@@ -123,8 +123,7 @@ read_open(
     if (c->capacity < FIRST_CAPACITY)
         c->capacity = FIRST_CAPACITY;
     c->bytes = OTX_NEW(run->scratch, char, c->capacity);
-    if (!c->bytes)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     return read_all(run, stage, path, fd, limit, c);
 }
 
@@ -206,8 +205,7 @@ otx_text_open(
 {
     char *copy = OTX_NEW(run->scratch, char, size);
 
-    if (!copy)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     if (size > 0)
         memcpy(copy, bytes, size);
     return start(run, stage, name, copy, size, out);

@@ -59,8 +59,7 @@ otx_text_out_open(
     otx_text_out *o = OTX_NEW(run->scratch, otx_text_out, 1);
 
     *out = NULL;
-    if (!o)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     o->stage = stage;
     o->name = name ? name : path;
     o->error = 0;

@@ -269,7 +269,7 @@ alloc_block(const reader *r, uint64_t bytes, uint64_t needed, uint8_t **out)
             "ones",
             (unsigned long long)bytes);
     *out = otx_arena_zalloc(r->run->scratch, bytes, 1);
-    return *out ? OSDTEX_OK : otx_fail_memory(r->run, "picture");
+    return otx_run_ok(r->run);
 }
 
 static otx_status
@@ -382,8 +382,7 @@ read_rgba(reader *r)
         OTX_ZNEW(r->run->scratch, uint32_t, (size_t)r->width * r->height);
     bool has_alpha = false;
 
-    if (!raster)
-        return otx_fail_memory(r->run, "picture");
+    OTX_TRY(otx_run_ok(r->run));
     if (!fill_raster(r, raster, &has_alpha))
         return reader_failed(r);
     OTX_TRY(otx_picture_create(

@@ -430,8 +430,7 @@ write_all(otx_run *run, otx_text_out *out, const otx_usda *u)
 {
     const char *name = otx_usda_identifier(run->scratch, u->name);
 
-    if (!name)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     otx_text_out_string(out, "#usda 1.0\n");
     for (int32_t i = 0; i < u->comment_count; ++i)
     {

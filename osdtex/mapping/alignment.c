@@ -142,8 +142,7 @@ otx_alignment_measure(
         .scales = OTX_NEW(run->scratch, weighed, leaf->corner_count),
     };
 
-    if (!s.angles || !s.scales)
-        return otx_fail_memory(run, "measure");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (!leaf->face_hole[f] && mapping->face_patch[f] >= 0 &&
             otx_source_of(mapping, f) == 0)

@@ -396,8 +396,7 @@ measure_seams(
     otx_series s = {.items = OTX_NEW(run->scratch, otx_series_item, count)};
     double squares;
 
-    if (!s.items)
-        return otx_fail_memory(run, stage);
+    OTX_TRY(otx_run_ok(run));
     sum_seams(faces, list, out);
     squares = take_samples(list, true, &s);
     out->transition_rms = s.count > 0 ? sqrt(squares / s.count) : 0.0;

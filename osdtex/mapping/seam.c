@@ -264,8 +264,7 @@ sample_seams(otx_run *run, search *s, otx_seam_list *out)
 {
     s->samples = OTX_NEW(run->arena, float, s->sample_first[out->edge_count]);
     out->samples = s->samples;
-    if (!s->samples)
-        return otx_fail_memory(run, "measure");
+    OTX_TRY(otx_run_ok(run));
     return otx_loop_result(
         run, "measure",
         otx_pool_for(run->pool, out->edge_count, sample_seam, s));

@@ -6,8 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-static const char STAGE[] = "measure";
-
 static otx_vec2
 uv_of(const otx_mapping *mapping, int32_t corner)
 {
@@ -95,8 +93,7 @@ corner_mismatch(
     float *low = OTX_NEW(run->scratch, float, count);
     float *high = OTX_NEW(run->scratch, float, count);
 
-    if (!low || !high)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (size_t i = 0; i < count; ++i)
     {
         low[i] = INFINITY;
@@ -187,8 +184,7 @@ count_vertices(
     int32_t *next = OTX_NEW(run->scratch, int32_t, leaf->corner_count);
     int32_t *patch = OTX_NEW(run->scratch, int32_t, leaf->corner_count);
 
-    if (!head || !next || !patch)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     memset(head, -1, (size_t)leaf->vert_count * sizeof *head);
     for (int32_t f = 0; f < leaf->face_count; ++f)
         for (int32_t c = leaf->face_first[f]; c < leaf->face_first[f + 1]; ++c)
@@ -227,8 +223,7 @@ otx_tile_check_use(
     int32_t *uses = OTX_ZNEW(run->scratch, int32_t, cells);
 
     *out = (otx_tile_use){.tiles = layout->names ? layout->name_count : cells};
-    if (!patch_cell || !uses)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     memset(patch_cell, -1, (size_t)mapping->patch_count * sizeof *patch_cell);
     count_cells(mapping, layout, patch_cell, uses);
     out->least = INT32_MAX;

@@ -524,8 +524,7 @@ look_up_all(
     quantiles[0] = quantiles[1] = 0.0;
     l->seeds = seeds;
     l->distances = OTX_NEW(run->scratch, double, count);
-    if (!l->distances)
-        return otx_fail_memory(run, "measure");
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_loop_result(
         run, "measure", otx_pool_for(run->pool, count, look_up, l)));
     if (count == 0)
@@ -561,8 +560,7 @@ measure(
     window *w = OTX_NEW(run->scratch, window, 1);
     double seam[2], interior[2];
 
-    if (!seam_edge || !seeds || !w)
-        return otx_fail_memory(run, "measure");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < seams->edge_count; ++i)
         seam_edge[seams->edges[i]] = 1;
     l->seam_edge = seam_edge;

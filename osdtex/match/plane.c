@@ -130,8 +130,7 @@ transform_components(otx_run *run, otx_plane *plane)
     for (int32_t c = 0; c <= plane->channels; ++c)
     {
         plane->spectra[c] = OTX_NEW(run->arena, float, floats);
-        if (!plane->spectra[c])
-            return otx_fail_memory(run, "match");
+        OTX_TRY(otx_run_ok(run));
         fill_component(plane, c, rows);
         otx_fft_forward(
             fft, c < plane->channels ? -2.0f * unit : unit, rows, scratch,

@@ -468,15 +468,13 @@ hold_contest(
     otx_constraint_set weighed = *set;
     int32_t *asked;
 
-    if (!items || !c->most || !c->sum)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     weighed.items = items;
     for (int32_t k = 1; k < count; ++k)
         if (weigh_items(set, k, count, items))
             OTX_TRY(weigh_faces(run, surface, &weighed, k, c));
     asked = list_asked(run, surface->cage, set, count);
-    if (!asked)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     settle(otx_surface_leaf(surface), asked, c);
     return OSDTEX_OK;
 }

@@ -54,8 +54,7 @@ otx_density_spread(
     otx_connection *connection = OTX_NEW(run->arena, otx_connection, 1);
     int32_t level = last;
 
-    if (!values || !connection)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     while (level > 0 && surface->levels[level].face_count > FACES_MAX)
         --level;
     OTX_TRY(otx_connection_build(run, surface, level, connection));
@@ -82,8 +81,7 @@ otx_density_apply(
         return OSDTEX_OK;
     scaled = OTX_NEW(run->arena, otx_surface, 1);
     density = OTX_NEW(run->arena, float, count);
-    if (!scaled || !density)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_density_spread(
         run, surface, constraints, OTX_CONSTRAINT_SCALE, &values));
     for (int32_t v = 0; v < count; ++v)

@@ -12,8 +12,7 @@ otx_guide_from_field(
     const otx_level *leaf = &surface->levels[last];
     otx_vec3 *directions = OTX_NEW(run->arena, otx_vec3, leaf->face_count);
 
-    if (!directions)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {
         int32_t face = f;
@@ -36,8 +35,7 @@ otx_guide_make(
     otx_connection *connection = OTX_NEW(run->arena, otx_connection, 1);
     otx_direction field;
 
-    if (!connection)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_connection_build(
         run, surface, surface->level_count - 1, connection));
     OTX_TRY(otx_constraint_pins(run, constraints, connection, &asked));

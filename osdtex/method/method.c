@@ -154,8 +154,7 @@ otx_method_fill(
             job->run, OSDTEX_ERROR_SUPPORT, "map", OTX_NOWHERE,
             "this build has no method that fills in patches");
     settings = otx_arena_zalloc(job->run->arena, 1, method->settings_bytes);
-    if (!settings)
-        return otx_fail_memory(job->run, "map");
+    OTX_TRY(otx_run_ok(job->run));
     otx_option_defaults(method->options, method->option_count, settings);
     filling.settings = settings;
     return method->fill(&filling, given, out);

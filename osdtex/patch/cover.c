@@ -15,8 +15,7 @@ otx_cover_create(const otx_mosaic_job *job, otx_cover *out)
     if (job->demand)
         out->patch_exemplar =
             OTX_ZNEW(arena, uint8_t, 2 * (int64_t)leaf->face_count);
-    if (!out->face_patch || !out->uvs || (job->demand && !out->patch_exemplar))
-        return otx_fail_memory(job->run, "map");
+    OTX_TRY(otx_run_ok(job->run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {
         out->face_patch[f] = -1;
@@ -44,8 +43,7 @@ write_uvs(const otx_mosaic_job *job, const otx_cover *cover, otx_mapping *out)
     uint8_t *known =
         OTX_ZNEW(job->run->scratch, uint8_t, cover->patch_count + 1);
 
-    if (!shift || !known)
-        return otx_fail_memory(job->run, "map");
+    OTX_TRY(otx_run_ok(job->run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {
         const int32_t p = cover->face_patch[f];
@@ -84,8 +82,7 @@ number_patches(
     int32_t *number =
         OTX_ZNEW(job->run->scratch, int32_t, cover->patch_count + 1);
 
-    if (!number)
-        return otx_fail_memory(job->run, "map");
+    OTX_TRY(otx_run_ok(job->run));
     for (int32_t f = 0; f < faces; ++f)
         if (cover->face_patch[f] >= 0)
             number[cover->face_patch[f]] = 1;
@@ -113,8 +110,7 @@ otx_cover_write(
     *out = (otx_mapping){.surface = job->surface, .scale = job->scale};
     out->uvs = OTX_NEW(job->run->arena, float, 2 * (int64_t)leaf->corner_count);
     out->face_patch = OTX_NEW(job->run->arena, int32_t, leaf->face_count);
-    if (!out->uvs || !out->face_patch)
-        return otx_fail_memory(job->run, "map");
+    OTX_TRY(otx_run_ok(job->run));
     OTX_TRY(write_uvs(job, cover, out));
     return number_patches(job, cover, out);
 }

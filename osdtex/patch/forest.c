@@ -44,8 +44,7 @@ append_node(otx_mosaic *m, const otx_cluster *cluster, int32_t depth)
             m->forest.capacity ? 2 * m->forest.capacity : 256;
         otx_node *nodes = OTX_NEW(m->job.run->arena, otx_node, capacity);
 
-        if (!nodes)
-            return otx_fail_memory(m->job.run, "map");
+        OTX_TRY(otx_run_ok(m->job.run));
         if (m->forest.count > 0)
             memcpy(
                 nodes, m->forest.nodes,
@@ -57,8 +56,7 @@ append_node(otx_mosaic *m, const otx_cluster *cluster, int32_t depth)
     *node = (otx_node){.cluster = *cluster, .depth = depth, .patch = -1};
     node->leaves = otx_cluster_leaves(
         m->job.run->arena, m->job.surface, cluster, &node->leaf_count);
-    if (!node->leaves)
-        return otx_fail_memory(m->job.run, "map");
+    OTX_TRY(otx_run_ok(m->job.run));
     node->supply = otx_supply_wanted(&m->job, node->leaves[0]);
     for (int32_t i = 0; i < node->leaf_count; ++i)
         m->forest.leaf_node[node->leaves[i]] = m->forest.count - 1;

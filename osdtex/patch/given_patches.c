@@ -32,8 +32,7 @@ otx_given_region(
     const otx_level *leaf = job->leaves.level;
     int32_t *faces = OTX_NEW(job->run->arena, int32_t, leaf->face_count);
 
-    if (!faces)
-        return otx_fail_memory(job->run, "map");
+    OTX_TRY(otx_run_ok(job->run));
     *out = (otx_cluster){job->leaves.level_index, 0, faces, 0.0};
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (cover->face_patch[f] < 0 && !leaf->face_hole[f])
@@ -54,8 +53,7 @@ offer_patch(const otx_mosaic *m, int32_t patch, int32_t count, otx_offer *out)
     int32_t corners = 0, n = 0;
     otx_vec2 *uvs;
 
-    if (!faces || !first)
-        return otx_fail_memory(m->job.run, "cut");
+    OTX_TRY(otx_run_ok(m->job.run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (m->job.given->face_patch[f] == patch && !leaf->face_hole[f])
         {
@@ -65,8 +63,7 @@ offer_patch(const otx_mosaic *m, int32_t patch, int32_t count, otx_offer *out)
         }
     first[n] = corners;
     uvs = OTX_NEW(m->job.run->arena, otx_vec2, corners);
-    if (!uvs)
-        return otx_fail_memory(m->job.run, "cut");
+    OTX_TRY(otx_run_ok(m->job.run));
     for (int32_t i = 0; i < n; ++i)
         memcpy(
             uvs + first[i], m->job.given->uvs + leaf->face_first[faces[i]],
@@ -82,8 +79,7 @@ otx_given_offers(const otx_mosaic *m, otx_offer *offers)
     int32_t *counts =
         OTX_ZNEW(m->job.run->scratch, int32_t, m->job.given->patch_count + 1);
 
-    if (!counts)
-        return otx_fail_memory(m->job.run, "cut");
+    OTX_TRY(otx_run_ok(m->job.run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (m->job.given->face_patch[f] >= 0 && !leaf->face_hole[f])
             ++counts[m->job.given->face_patch[f]];

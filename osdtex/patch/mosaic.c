@@ -36,8 +36,7 @@ make_forest(otx_mosaic *m)
     forest->leaf_node = OTX_NEW(job->run->arena, int32_t, leaf->face_count);
     forest->patch_node = OTX_NEW(job->run->arena, int32_t, leaf->face_count);
     forest->spaces = OTX_NEW(job->run->arena, otx_chart_space, threads);
-    if (!forest->leaf_node || !forest->patch_node || !forest->spaces)
-        return otx_fail_memory(job->run, "map");
+    OTX_TRY(otx_run_ok(job->run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
         forest->leaf_node[f] = forest->patch_node[f] = -1;
     for (int32_t t = 0; t < threads; ++t)
@@ -89,8 +88,7 @@ keep_guide(const otx_mosaic *m, otx_mapping *out)
     if (!m->supplies.items[0].guide)
         return OSDTEX_OK;
     guide = OTX_NEW(m->job.run->arena, otx_guide, 1);
-    if (!guide)
-        return otx_fail_memory(m->job.run, "map");
+    OTX_TRY(otx_run_ok(m->job.run));
     *guide = *m->supplies.items[0].guide;
     out->guide = guide;
     return OSDTEX_OK;

@@ -143,8 +143,7 @@ make_offers(offering *o)
     const int32_t given = m->job.given ? m->job.given->patch_count : 0;
 
     o->offers = OTX_NEW(m->job.run->arena, otx_offer, m->cover.patch_count);
-    if (!o->offers)
-        return otx_fail_memory(m->job.run, "cut");
+    OTX_TRY(otx_run_ok(m->job.run));
     OTX_TRY(otx_loop_result(
         m->job.run, "cut",
         otx_pool_for(
@@ -183,8 +182,7 @@ find_outlines(const otx_mosaic *m, const otx_image **out)
     if (!m->job.demand)
         return OSDTEX_OK;
     outlines = OTX_NEW(m->job.run->scratch, otx_image, m->job.exemplar_count);
-    if (!outlines)
-        return otx_fail_memory(m->job.run, "cut");
+    OTX_TRY(otx_run_ok(m->job.run));
     for (int32_t k = 0; k < m->job.exemplar_count; ++k)
         OTX_TRY(
             otx_outline_find(m->job.run, &m->job.exemplars[k], &outlines[k]));

@@ -203,8 +203,7 @@ otx_straighten(const otx_mosaic_job *job, otx_cover *cover)
         .shifts = OTX_NEW(job->run->scratch, shift, leaf->face_count),
     };
 
-    if (!s.heads || !s.shifts)
-        return otx_fail_memory(job->run, "map");
+    OTX_TRY(otx_run_ok(job->run));
     for (int32_t round = 0; round < ROUNDS; ++round)
     {
         plan(&s);

@@ -59,8 +59,7 @@ prepare(otx_mosaic *m, int32_t k)
 
     s->usage =
         OTX_ZNEW(m->job.run->arena, float, OTX_USAGE_CELLS *OTX_USAGE_CELLS);
-    if (!s->usage)
-        return otx_fail_memory(m->job.run, "map");
+    OTX_TRY(otx_run_ok(m->job.run));
     OTX_TRY(match_picture(m, k, &match, &sigma));
     OTX_TRY(otx_matcher_create_like(
         m->job.run, &match, e->wrap_x, e->wrap_y, sigma, s->settings.coarse,
@@ -92,8 +91,7 @@ otx_supply_prepare(otx_mosaic *m)
         return OSDTEX_OK;
     m->supplies.transition = transition(m);
     m->supplies.away = OTX_NEW(m->job.run->arena, double, leaf->face_count);
-    if (!m->supplies.away)
-        return otx_fail_memory(m->job.run, "map");
+    OTX_TRY(otx_run_ok(m->job.run));
     return otx_distance_measure(
         m->job.run, m->job.surface, m->job.demand, m->job.texels,
         m->supplies.transition, m->supplies.away);
@@ -180,8 +178,7 @@ take_region(
 {
     int32_t *faces = OTX_NEW(m->job.run->arena, int32_t, level->face_count);
 
-    if (!faces)
-        return otx_fail_memory(m->job.run, "map");
+    OTX_TRY(otx_run_ok(m->job.run));
     *out = (otx_cluster){
         level_index, 0, faces,
         m->job.demand ? m->supplies.items[k].area : m->job.surface->area};
@@ -203,8 +200,7 @@ otx_supply_regions(otx_mosaic *m, int32_t level, otx_cluster *out)
         level = last;
         demand = level_demand(m, level, &mixed);
     }
-    if (!demand)
-        return otx_fail_memory(m->job.run, "map");
+    OTX_TRY(otx_run_ok(m->job.run));
     for (int32_t k = 0; k < m->job.exemplar_count; ++k)
         OTX_TRY(take_region(
             m, &m->job.surface->levels[level], level, demand, k, &out[k]));

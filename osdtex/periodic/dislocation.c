@@ -221,8 +221,7 @@ cancel_axis(search *q)
         charged += q->charge[f] != 0;
     }
     list = OTX_NEW(q->s->run->scratch, escape, charged + 1);
-    if (!list)
-        return otx_fail_memory(q->s->run, "field");
+    OTX_TRY(otx_run_ok(q->s->run));
     for (int round = 0; moved && round < CANCEL_ROUNDS; ++round)
         OTX_TRY(cancel_round(q, list, &moved));
     return OSDTEX_OK;
@@ -244,9 +243,7 @@ otx_dislocation_cancel(otx_phase_solver *s)
         .touched = OTX_NEW(scratch, int32_t, faces),
         .queue = otx_pqueue_make(scratch)};
 
-    if (!q.charge || !q.sink || !q.length || !q.came || !q.carried ||
-        !q.touched)
-        return otx_fail_memory(s->run, "field");
+    OTX_TRY(otx_run_ok(s->run));
     for (q.axis = 0; q.axis < 2; ++q.axis)
         OTX_TRY(cancel_axis(&q));
     otx_arena_release(scratch, mark);

@@ -54,8 +54,7 @@ comb(solver *s)
     uint8_t *seen = OTX_ZNEW(s->run->scratch, uint8_t, level->face_count);
     int32_t head = 0, tail = 0;
 
-    if (!queue || !seen)
-        return otx_fail_memory(s->run, "field");
+    OTX_TRY(otx_run_ok(s->run));
     for (int32_t seed = 0; seed < level->face_count; ++seed)
     {
         if (!seen[seed])
@@ -470,13 +469,9 @@ allocate(solver *s)
         s->step[k] = OTX_NEW(scratch, double, level->edge_count);
         s->z[k] = OTX_NEW(scratch, double, 2 * (int64_t)level->vert_count);
         s->turn[k] = OTX_NEW(scratch, double, level->vert_count);
-        if (!s->wish[k] || !s->step[k] || !s->z[k] || !s->turn[k])
-            return otx_fail_memory(s->run, "field");
+        OTX_TRY(otx_run_ok(s->run));
     }
-    if (!s->phase->match || !s->phase->cells || !s->phase->parts ||
-        !s->phase->defect || !s->angles || !s->sense || !s->mass ||
-        !s->singular)
-        return otx_fail_memory(s->run, "field");
+    OTX_TRY(otx_run_ok(s->run));
     return OSDTEX_OK;
 }
 

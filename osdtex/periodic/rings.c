@@ -119,8 +119,7 @@ otx_rings_find(
 
     *out = (otx_rings){
         .singular = OTX_ZNEW(run->arena, uint8_t, level->vert_count)};
-    if (!out->singular)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < level->face_count; ++f)
         if (is_distorted(phase, request, f))
             for (int32_t i = level->face_first[f]; i < level->face_first[f + 1];

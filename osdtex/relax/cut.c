@@ -205,8 +205,7 @@ total_energy(const state *s, double *out)
     tally t = {s, OTX_ZNEW(s->run->scratch, int64_t, tasks)};
     int64_t sum = 0;
 
-    if (!t.sums)
-        return otx_fail_memory(s->run, stage);
+    OTX_TRY(otx_run_ok(s->run));
     OTX_TRY(otx_pool_for(s->run->pool, tasks, sum_edges, &t));
     for (int64_t i = 0; i < tasks; ++i)
         sum += t.sums[i];

@@ -4,8 +4,6 @@
 #include "mapping/source.h"
 #include "render/distortion.h"
 
-static const char STAGE[] = "render";
-
 static otx_scene_texture *
 list_textures(otx_run *run, const otx_exemplar *exemplars, int32_t count)
 {
@@ -28,8 +26,7 @@ list_sources(otx_run *run, const otx_mapping *mapping, const int32_t **out)
     if (otx_source_count(mapping) == 1)
         return OSDTEX_OK;
     sources = OTX_NEW(run->arena, int32_t, count);
-    if (!sources)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < count; ++f)
         sources[f] = otx_source_of(mapping, f);
     *out = sources;
@@ -47,8 +44,7 @@ otx_scene_from_mapping(
     const otx_scene_texture *textures = list_textures(run, exemplars, count);
     otx_vec2 units[OTX_EXEMPLARS_MAX];
 
-    if (!textures)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t k = 0; k < count; ++k)
         units[k] = otx_source_unit(mapping, exemplars, k);
     *out = (otx_scene){

@@ -23,8 +23,7 @@ prepare_textures(otx_run *run, otx_shade *out)
     const int32_t count = out->scene->texture_count;
     otx_texture *textures = OTX_NEW(run->scratch, otx_texture, count);
 
-    if (!textures)
-        return otx_fail_memory(run, "render");
+    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < count; ++i)
     {
         const otx_scene_texture *from = &out->scene->textures[i];

@@ -129,7 +129,7 @@ copy_colors(otx_run *run, const otx_cage_input *in, otx_cage *cage)
         return OSDTEX_OK;
     }
     cage->colors = copy(run->arena, in->colors, count, sizeof *in->colors);
-    return cage->colors ? OSDTEX_OK : otx_fail_memory(run, STAGE);
+    return otx_run_ok(run);
 }
 
 static otx_status
@@ -140,7 +140,7 @@ copy_point_lines(otx_run *run, const otx_cage_input *in, otx_cage *cage)
     cage->point_line_bytes = in->point_line_bytes;
     cage->point_lines =
         copy(run->arena, in->point_lines, in->point_line_bytes, 1);
-    return cage->point_lines ? OSDTEX_OK : otx_fail_memory(run, STAGE);
+    return otx_run_ok(run);
 }
 
 static otx_status
@@ -160,8 +160,7 @@ copy_mesh(otx_run *run, const otx_cage_input *in, bool uvs, otx_cage *cage)
         copy(arena, in->face_first, faces + 1, sizeof *in->face_first);
     cage->face_verts =
         copy(arena, in->face_verts, corners, sizeof *in->face_verts);
-    if (!cage->points || !cage->face_first || !cage->face_verts)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     if (uvs)
     {
         cage->uv_count = in->uv_count;
@@ -169,15 +168,13 @@ copy_mesh(otx_run *run, const otx_cage_input *in, bool uvs, otx_cage *cage)
             copy(arena, in->uvs, 2 * (size_t)in->uv_count, sizeof *in->uvs);
         cage->face_uvs =
             copy(arena, in->face_uvs, corners, sizeof *in->face_uvs);
-        if (!cage->uvs || !cage->face_uvs)
-            return otx_fail_memory(run, STAGE);
+        OTX_TRY(otx_run_ok(run));
     }
     if (in->face_line)
     {
         cage->face_line =
             copy(arena, in->face_line, faces, sizeof *in->face_line);
-        if (!cage->face_line)
-            return otx_fail_memory(run, STAGE);
+        OTX_TRY(otx_run_ok(run));
     }
     return copy_colors(run, in, cage);
 }
@@ -238,11 +235,7 @@ copy_carried(otx_run *run, const otx_cage_input *in, otx_cage *c)
     c->face_smooth =
         copy_labels(arena, in->face_smooth, faces, c->smooth_count);
     c->path = in->path ? otx_arena_strdup(arena, in->path) : NULL;
-    if (!c->group_names || !c->object_names || !c->material_names ||
-        !c->smooth_names || !c->library_names || !c->face_group ||
-        !c->face_object || !c->face_material || !c->face_smooth ||
-        (in->path && !c->path))
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     return OSDTEX_OK;
 }
 

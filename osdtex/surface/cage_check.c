@@ -127,8 +127,7 @@ otx_cage_check_faces(otx_run *run, const otx_cage_input *in, otx_scheme scheme)
             run, OSDTEX_ERROR_TOPOLOGY, STAGE, where,
             "there are no faces to subdivide; export the mesh as polygons");
     seen = OTX_ZNEW(run->scratch, int32_t, in->vert_count);
-    if (!seen)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < in->face_count; ++f)
     {
         const otx_status size = check_face_size(run, in, f);
@@ -423,8 +422,7 @@ check_fans(
     otx_where where = OTX_NOWHERE;
 
     *split_count = 0;
-    if (!fans)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t v = 0; v < t->vert_count; ++v)
     {
         if (fans[v].start < 0 && !is_welded_away(in, v) && isolated++ == 0)

@@ -58,8 +58,7 @@ otx_cage_weld(otx_run *run, double distance, otx_cage_input *in)
         distance = default_distance(in);
     first =
         otx_weld_find(run->scratch, in->points, in->vert_count, NULL, distance);
-    if (!first)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t v = 0; v < in->vert_count; ++v)
         count += first[v] != v;
     otx_note(
@@ -75,8 +74,7 @@ otx_cage_weld(otx_run *run, double distance, otx_cage_input *in)
     in->corner_tag_verts = mapped(
         run->scratch, first, in->corner_tag_verts, (size_t)in->corner_tag_count,
         in->vert_count);
-    if (!in->face_verts || !in->crease_verts || !in->corner_tag_verts)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     return OSDTEX_OK;
 }
 

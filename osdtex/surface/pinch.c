@@ -98,8 +98,7 @@ otx_pinch_split(otx_run *run, const otx_cage *cage, otx_cage *out)
     out->vert_count = mesh.vert_count;
     out->face_verts = mesh.face_verts;
     out->points = split_points(run->scratch, cage, &mesh);
-    if (!out->points)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     out->split_count = 0;
     OTX_TRY(split_creases(run, cage, &mesh, out));
     return split_corners(run, cage, &mesh, out);

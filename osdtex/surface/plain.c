@@ -53,8 +53,7 @@ make_level(
                           cage->face_first, mesh->face_verts, &t))
         return otx_fail_memory(run, STAGE);
     faces = edge_faces(run->arena, &t);
-    if (!faces)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < cage->face_count; ++f)
         face_cage[f] = f;
     *out = (otx_level){
@@ -87,8 +86,7 @@ otx_plain_cage(
         return otx_fail_memory(run, STAGE);
     points = points_of(run->arena, cage, &mesh);
     none = OTX_ZNEW(run->arena, float, 6 * (size_t)mesh.vert_count);
-    if (!points || !none)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(make_level(run, cage, &mesh, level));
     *out = (otx_surface){
         .cage = cage,

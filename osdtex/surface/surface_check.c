@@ -114,8 +114,7 @@ check_fans(const checker *c, const otx_topology *t)
 {
     const otx_topology_fan *fans = otx_topology_fans(c->run->scratch, t);
 
-    if (!fans)
-        return otx_fail_memory(c->run, STAGE);
+    OTX_TRY(otx_run_ok(c->run));
     for (int32_t v = 0; v < t->vert_count; ++v)
     {
         if (fans[v].start >= 0 &&

@@ -102,8 +102,7 @@ prepare(maker *m)
         m->planes[p] = OTX_ZNEW(m->run->scratch, float, plane_floats);
         m->spectra[p] =
             OTX_NEW(m->run->scratch, float, otx_fft_spectrum_floats(m->fft));
-        if (!m->planes[p] || !m->spectra[p])
-            return otx_fail_memory(m->run, STAGE);
+        OTX_TRY(otx_run_ok(m->run));
     }
     find_mean(m);
     for (int32_t y = 0; y < pool->height; ++y)

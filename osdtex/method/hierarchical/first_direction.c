@@ -75,8 +75,7 @@ otx_first_constrain(
         return OSDTEX_OK;
     set = OTX_ZNEW(run->arena, otx_constraint_set, 1);
     items = OTX_NEW(run->arena, otx_constraint, (int64_t)count + 1);
-    if (!set || !items)
-        return otx_fail_memory(run, "field");
+    OTX_TRY(otx_run_ok(run));
     if (from)
         *set = *from;
     if (count > 0)

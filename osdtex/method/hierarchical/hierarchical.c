@@ -103,8 +103,7 @@ cover(
     const otx_map_request *request = job->request;
     otx_mosaic *m = OTX_ZNEW(job->run->arena, otx_mosaic, 1);
 
-    if (!m)
-        return otx_fail_memory(job->run, "map");
+    OTX_TRY(otx_run_ok(job->run));
     m->job = (otx_mosaic_job){
         .run = job->run,
         .surface = surface,
@@ -143,8 +142,7 @@ map(const otx_job *job, otx_mapping *out)
     otx_guide *guides = OTX_ZNEW(job->run->arena, otx_guide, OTX_EXEMPLARS_MAX);
     const otx_surface *surface;
 
-    if (!guides)
-        return otx_fail_memory(job->run, "map");
+    OTX_TRY(otx_run_ok(job->run));
     OTX_TRY(otx_guides_density(job, &surface));
     OTX_TRY(otx_guides_make(job, surface, guides));
     return cover(job, surface, guides, NULL, out);

@@ -76,8 +76,7 @@ make_room(blender *b)
     int64_t count = 0;
 
     b->first = OTX_NEW(arena, int64_t, (int64_t)b->leaf->face_count + 1);
-    if (!b->first)
-        return otx_fail_memory(b->m->job->run, "map");
+    OTX_TRY(otx_run_ok(b->m->job->run));
     for (int32_t f = 0; f < b->leaf->face_count; ++f)
     {
         const int32_t solved = otx_material_solved_face(b->m, f);
@@ -89,7 +88,7 @@ make_room(blender *b)
     }
     b->first[b->leaf->face_count] = count;
     b->items = OTX_NEW(arena, otx_lookup, count + 1);
-    return b->items ? OSDTEX_OK : otx_fail_memory(b->m->job->run, "map");
+    return otx_run_ok(b->m->job->run);
 }
 
 /* -- weights ------------------------------------------------------------- */
@@ -133,8 +132,7 @@ weigh(const blender *b)
         otx_vec2 *corners = OTX_ZNEW(scratch, otx_vec2, b->level->corner_count);
         otx_vec2 *weights;
 
-        if (!corners)
-            return otx_fail_memory(b->m->job->run, "map");
+        OTX_TRY(otx_run_ok(b->m->job->run));
         for (int32_t f = 0; f < b->level->face_count; ++f)
         {
             if (k < otx_level_face_size(b->level, f))
@@ -304,8 +302,7 @@ otx_blend_run(otx_material *m, otx_mapping *out)
     blender b = {
         m, m->solved.connection.level, otx_surface_leaf(m->job->surface), 0, 0};
 
-    if (!lookups)
-        return otx_fail_memory(m->job->run, "map");
+    OTX_TRY(otx_run_ok(m->job->run));
     OTX_TRY(make_room(&b));
     OTX_TRY(weigh(&b));
     for (int32_t f = 0; f < b.leaf->face_count; ++f)

@@ -37,8 +37,7 @@ read_columns(const otx_material *m, columns *out)
     out->colors = to = OTX_NEW(
         m->job->run->scratch, float,
         3 * (int64_t)m->courses.count * out->count * SAMPLES);
-    if (!to)
-        return otx_fail_memory(m->job->run, "map");
+    OTX_TRY(otx_run_ok(m->job->run));
     for (int32_t c = 0; c < m->courses.count; ++c)
         for (int32_t i = 0; i < out->count; ++i)
             for (int32_t k = 0; k < SAMPLES; ++k, to += 3)

@@ -211,8 +211,7 @@ prepare(otx_run *run, const otx_level *leaf, labeller *l)
     l->corners = OTX_NEW(run->scratch, int32_t, leaf->corner_count);
     l->faces = OTX_NEW(run->scratch, int32_t, leaf->corner_count);
     l->queue = OTX_NEW(run->scratch, int32_t, leaf->face_count);
-    if (!l->first || !l->corners || !l->faces || !l->queue)
-        return otx_fail_memory(run, "map");
+    OTX_TRY(otx_run_ok(run));
     /* Counted two places on, so that filling in leaves the starts behind. */
     for (int32_t i = 0; i < leaf->corner_count; ++i)
         ++l->first[leaf->face_verts[i] + 2];

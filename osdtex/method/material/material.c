@@ -105,8 +105,7 @@ lay_uvs(otx_material *m)
     m->laid.uvs = OTX_NEW(m->job->run->arena, otx_vec2, leaf->corner_count);
     m->laid.face_patch = OTX_NEW(m->job->run->arena, int32_t, leaf->face_count);
     m->laid.open = OTX_ZNEW(m->job->run->arena, uint8_t, leaf->face_count);
-    if (!m->laid.uvs || !m->laid.face_patch || !m->laid.open)
-        return otx_fail_memory(m->job->run, "map");
+    OTX_TRY(otx_run_ok(m->job->run));
     OTX_TRY(otx_material_refine(
         m, m->job->run->arena, m->solved.phase.cells, &m->laid.cells));
     otx_refill_clear(m);
@@ -133,8 +132,7 @@ show_lattice(otx_material *m, otx_mapping *out)
     otx_vec3 *defects =
         OTX_NEW(m->job->run->arena, otx_vec3, m->solved.phase.defect_count + 1);
 
-    if (!map || !defects)
-        return otx_fail_memory(m->job->run, "map");
+    OTX_TRY(otx_run_ok(m->job->run));
     *map = (otx_cell_map){m->laid.cells, m->laid.open, defects, 0};
     for (int32_t f = 0; f < m->solved.connection.level->face_count; ++f)
         if (m->solved.phase.defect[f])

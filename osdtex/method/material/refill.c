@@ -95,8 +95,7 @@ open_narrow(otx_material *m)
     uint8_t *marked = OTX_ZNEW(m->job->run->scratch, uint8_t, count);
     double *distance;
 
-    if (!marked)
-        return otx_fail_memory(m->job->run, "map");
+    OTX_TRY(otx_run_ok(m->job->run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (m->laid.open[f])
             marked[otx_material_solved_face(m, f)] = 1;

@@ -327,8 +327,7 @@ otx_strips_find(const otx_material *m, otx_strips *out)
         &s->leaf));
     OTX_TRY(allocate(s));
     queue = OTX_NEW(m->job->run->scratch, int32_t, s->leaf.level->face_count);
-    if (!queue)
-        return otx_fail_memory(m->job->run, "map");
+    OTX_TRY(otx_run_ok(m->job->run));
     for (int32_t f = 0; f < s->leaf.level->face_count; ++f)
         measure_face(s, f);
     for (int32_t e = 0; e < s->leaf.level->edge_count; ++e)

@@ -118,8 +118,7 @@ lay_all(otx_strips *s)
     uint8_t *seen =
         OTX_ZNEW(s->m->job->run->scratch, uint8_t, leaf->face_count);
 
-    if (!queue || !laid || !seen)
-        return otx_fail_memory(s->m->job->run, "map");
+    OTX_TRY(otx_run_ok(s->m->job->run));
     for (int32_t seed = 0; seed < leaf->face_count; ++seed)
     {
         int32_t head = 0, tail = 0;
@@ -172,8 +171,7 @@ group_tears(otx_strips *s, otx_strip_tears *t)
     int32_t *members = OTX_ZNEW(scratch, int32_t, t->count);
 
     t->lengths = OTX_ZNEW(scratch, double, t->count);
-    if (!last || !parent || !number || !members || !t->lengths)
-        return otx_fail_memory(s->m->job->run, "map");
+    OTX_TRY(otx_run_ok(s->m->job->run));
     for (int32_t v = 0; v < leaf->vert_count; ++v)
         last[v] = -1;
     for (int32_t i = 0; i < t->count; ++i)
@@ -218,8 +216,7 @@ find_rings(otx_strips *s, const otx_strip_tears *t)
     double *low = OTX_NEW(s->m->job->run->scratch, double, s->count);
     double *high = OTX_NEW(s->m->job->run->scratch, double, s->count);
 
-    if (!low || !high)
-        return otx_fail_memory(s->m->job->run, "map");
+    OTX_TRY(otx_run_ok(s->m->job->run));
     for (int32_t i = 0; i < s->count; ++i)
     {
         low[i] = INFINITY;
@@ -252,8 +249,7 @@ otx_unroll_measure(otx_strips *s, otx_strip_tears *out)
     *out = (otx_strip_tears){
         .tears =
             OTX_NEW(s->m->job->run->scratch, otx_strip_tear, leaf->edge_count)};
-    if (!out->tears)
-        return otx_fail_memory(s->m->job->run, "map");
+    OTX_TRY(otx_run_ok(s->m->job->run));
     OTX_TRY(lay_all(s));
     for (int32_t e = 0; e < leaf->edge_count; ++e)
     {

@@ -14,8 +14,6 @@ enum
     REPAIRS = 3 /* passes over equal neighbours, at most */
 };
 
-static const char STAGE[] = "map";
-
 typedef struct assigner
 {
     const otx_assign_input *input;
@@ -400,8 +398,7 @@ otx_assign_names(otx_run *run, const otx_assign_input *input, int32_t *names)
         .names = names,
     };
 
-    if (!a.edge_types || !a.vert_seen || !a.uses || !a.suspects)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     a.span = layout->oriented ? layout->boundaries : a.types;
     a.step = parity ? 2 : 1;
     if (parity)

@@ -41,8 +41,7 @@ note_conflicts(
     uint8_t *parity = OTX_ZNEW(run->scratch, uint8_t, level->vert_count);
     int64_t edges = 0, vertices = 0;
 
-    if (!parity)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t e = 0; e < level->edge_count; ++e)
     {
         const int32_t *faces = level->edge_faces + 2 * (size_t)e;
@@ -87,8 +86,7 @@ otx_orient_walk(otx_run *run, const otx_level *l, uint8_t *turns)
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     int32_t *queue = OTX_NEW(run->scratch, int32_t, l->face_count);
 
-    if (!queue)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     memset(turns, UNSEEN, (size_t)l->face_count);
     for (int32_t start = 0; start < l->face_count; ++start)
     {

@@ -172,16 +172,14 @@ otx_tile_assign(
 
     *names = OTX_NEW(run->arena, int32_t, l->face_count);
     *turns = OTX_ZNEW(run->arena, uint8_t, l->face_count);
-    if (!*names || !*turns)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     if (layout->oriented || layout->corners > 1)
         input.turns = *turns;
     OTX_TRY(orient(run, surface, level, layout, settings, *turns));
     if (layout->corners > 1)
     {
         input.whole = whole = OTX_NEW(run->scratch, uint8_t, l->vert_count);
-        if (!whole)
-            return otx_fail_memory(run, STAGE);
+        OTX_TRY(otx_run_ok(run));
         otx_orient_find_whole(l, *turns, whole);
     }
     return otx_assign_names(run, &input, *names);
@@ -207,8 +205,7 @@ place_quads(
     *out = (placing){
         level, OTX_NEW(run->scratch, otx_vec2, level->corner_count),
         OTX_NEW(run->scratch, int32_t, level->face_count)};
-    if (!out->places || !out->owners)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < level->face_count; ++f)
     {
         out->owners[f] = f;
@@ -245,8 +242,7 @@ place_children(
     *out = (placing){
         level, OTX_NEW(run->scratch, otx_vec2, level->corner_count),
         OTX_NEW(run->scratch, int32_t, level->face_count)};
-    if (!out->places || !out->owners)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < level->face_count; ++f)
     {
         const int32_t from = level->face_parent[f];
@@ -377,8 +373,7 @@ map(const otx_job *job, otx_mapping *out)
         .face_patch = OTX_NEW(run->arena, int32_t, leaf->face_count),
         .patch_count = surface->levels[level].face_count,
     };
-    if (!out->uvs || !out->face_patch)
-        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_run_ok(run));
     otx_figures_stage(job->figures, "assign");
     OTX_TRY(otx_tile_assign(
         run, surface, level, layout, job->settings, &names, &turns));
