@@ -18,12 +18,12 @@ before(otx_pqueue_entry a, otx_pqueue_entry b)
 static bool
 grow(otx_pqueue *queue)
 {
-    const int32_t capacity = queue->capacity ? 2 * queue->capacity : 256;
-    otx_pqueue_entry *entries;
+    const int64_t capacity =
+        queue->capacity ? 2 * (int64_t)queue->capacity : 256;
+    otx_pqueue_entry *entries = OTX_NEW(
+        queue->arena, otx_pqueue_entry,
+        capacity <= INT32_MAX ? (size_t)capacity : SIZE_MAX);
 
-    if (queue->capacity > INT32_MAX / 2)
-        return false;
-    entries = OTX_NEW(queue->arena, otx_pqueue_entry, capacity);
     if (!entries)
         return false;
     if (queue->count > 0)
@@ -31,18 +31,18 @@ grow(otx_pqueue *queue)
             entries, queue->entries,
             (size_t)queue->count * sizeof *queue->entries);
     queue->entries = entries;
-    queue->capacity = capacity;
+    queue->capacity = (int32_t)capacity;
     return true;
 }
 
-bool
+void
 otx_pqueue_push(otx_pqueue *queue, double key, int32_t item)
 {
     const otx_pqueue_entry entry = {key, item};
     int32_t i;
 
     if (queue->count == queue->capacity && !grow(queue))
-        return false;
+        return;
     for (i = queue->count++; i > 0; i = (i - 1) / 2)
     {
         if (!before(entry, queue->entries[(i - 1) / 2]))
@@ -50,7 +50,6 @@ otx_pqueue_push(otx_pqueue *queue, double key, int32_t item)
         queue->entries[i] = queue->entries[(i - 1) / 2];
     }
     queue->entries[i] = entry;
-    return true;
 }
 
 bool

@@ -22,8 +22,9 @@ typedef struct otx_pqueue
 } otx_pqueue;
 
 otx_pqueue otx_pqueue_make(otx_arena *arena);
-/* False when memory is out. */
-bool otx_pqueue_push(otx_pqueue *queue, double key, int32_t item);
+/* When memory is out the item is dropped, and the arena says so: who drains
+ * the queue asks it afterwards. */
+void otx_pqueue_push(otx_pqueue *queue, double key, int32_t item);
 /* False when empty. */
 bool otx_pqueue_pop(otx_pqueue *queue, otx_pqueue_entry *out);
 

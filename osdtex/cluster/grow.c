@@ -53,13 +53,14 @@ step(growth *g)
     return ++g->steps % STEPS_PER_LOOK == 0 ? otx_pulse(g->run) : OSDTEX_OK;
 }
 
-static bool
+static void
 reach(growth *g, otx_pqueue *queue, int32_t face, int32_t seed, double distance)
 {
     g->owner[face] = seed;
     g->distance[face] = distance;
-    return otx_pqueue_push(queue, distance, face) &&
-           (!g->placing || otx_pqueue_push(&g->far, -distance, face));
+    otx_pqueue_push(queue, distance, face);
+    if (g->placing)
+        otx_pqueue_push(&g->far, -distance, face);
 }
 
 /* Spreads from one seed to where it is nearer than what was there. */
@@ -70,8 +71,7 @@ spread(growth *g, otx_pqueue *queue, int32_t seed)
     otx_pqueue_entry entry;
 
     queue->count = 0;
-    if (!reach(g, queue, g->seeds[seed], seed, 0.0))
-        return OSDTEX_ERROR_MEMORY;
+    reach(g, queue, g->seeds[seed], seed, 0.0);
     while (otx_pqueue_pop(queue, &entry))
     {
         const int32_t face = entry.item;
@@ -89,11 +89,10 @@ spread(growth *g, otx_pqueue *queue, int32_t seed)
             distance = entry.key + otx_dual_step(g->dual, face, next, g->bend);
             if (g->owner[next] != UNREACHED && distance >= g->distance[next])
                 continue;
-            if (!reach(g, queue, next, seed, distance))
-                return OSDTEX_ERROR_MEMORY;
+            reach(g, queue, next, seed, distance);
         }
     }
-    return OSDTEX_OK;
+    return otx_run_ok(g->run);
 }
 
 static void
@@ -107,7 +106,7 @@ forget(growth *g)
 }
 
 /* Forgets all, and has the faces wait for seeds. */
-static bool
+static void
 begin_placing(growth *g)
 {
     forget(g);
@@ -116,10 +115,8 @@ begin_placing(growth *g)
     for (int32_t i = 0; i < g->region->face_count; ++i)
     {
         step(g);
-        if (!otx_pqueue_push(&g->far, -INFINITY, g->region->faces[i]))
-            return false;
+        otx_pqueue_push(&g->far, -INFINITY, g->region->faces[i]);
     }
-    return true;
 }
 
 /* The face of the region farthest from all seeds, unreached ones first, of
@@ -142,7 +139,8 @@ farthest(growth *g)
 static otx_status
 spread_first(growth *g, otx_pqueue *queue)
 {
-    return begin_placing(g) ? spread(g, queue, 0) : OSDTEX_ERROR_MEMORY;
+    begin_placing(g);
+    return spread(g, queue, 0);
 }
 
 static otx_status
@@ -175,16 +173,16 @@ place_seeds(growth *g, otx_pqueue *queue, int32_t wanted)
 }
 
 /* Moves every seed to the face of its region nearest to the centroid. */
-static bool
-center_seeds(growth *g, otx_arena *scratch)
+static otx_status
+center_seeds(growth *g)
 {
     const otx_dual *dual = g->dual;
+    otx_arena *scratch = g->run->scratch;
     otx_vec3 *sum = OTX_ZNEW(scratch, otx_vec3, g->seed_count);
     double *area = OTX_ZNEW(scratch, double, g->seed_count);
     double *best = OTX_NEW(scratch, double, g->seed_count);
 
-    if (!sum || !area || !best)
-        return false;
+    OTX_TRY(otx_run_ok(g->run));
     for (int32_t i = 0; i < g->region->face_count; ++i)
     {
         const int32_t f = g->region->faces[i], s = g->owner[f];
@@ -209,19 +207,18 @@ center_seeds(growth *g, otx_arena *scratch)
             g->seeds[s] = f;
         }
     }
-    return true;
+    return OSDTEX_OK;
 }
 
 static otx_status
-lloyd(growth *g, otx_pqueue *queue, otx_arena *scratch)
+lloyd(growth *g, otx_pqueue *queue)
 {
     for (int32_t round = 0; round < LLOYD_ROUNDS; ++round)
     {
-        const otx_arena_mark mark = otx_arena_here(scratch);
+        const otx_arena_mark mark = otx_arena_here(g->run->scratch);
 
-        if (!center_seeds(g, scratch))
-            return OSDTEX_ERROR_MEMORY;
-        otx_arena_release(scratch, mark);
+        OTX_TRY(center_seeds(g));
+        otx_arena_release(g->run->scratch, mark);
         forget(g);
         for (int32_t s = 0; s < g->seed_count; ++s)
         {
@@ -282,8 +279,8 @@ grow_regions(
     OTX_TRY(otx_run_ok(run));
     memset(g.owner, OUTSIDE, (size_t)n * sizeof *g.owner);
     g.far = otx_pqueue_make(run->scratch);
-    OTX_TRY(otx_loop_result(run, STAGE, place_seeds(&g, &queue, wanted)));
-    OTX_TRY(otx_loop_result(run, STAGE, lloyd(&g, &queue, run->scratch)));
+    OTX_TRY(place_seeds(&g, &queue, wanted));
+    OTX_TRY(lloyd(&g, &queue));
     return collect(&g, out);
 }
 

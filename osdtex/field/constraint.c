@@ -437,7 +437,7 @@ otx_constraint_scale(
 
 /* -- effect area --------------------------------------------------------- */
 
-static bool
+static void
 push_around(
     const otx_connection *c, otx_pqueue *queue, const uint8_t *effect,
     otx_pqueue_entry from, double radius)
@@ -454,10 +454,9 @@ push_around(
             continue;
         d = from.key + otx_vec3_length(otx_vec3_sub(
                            c->centres[other], c->centres[from.item]));
-        if (d <= radius && !otx_pqueue_push(queue, d, other))
-            return false;
+        if (d <= radius)
+            otx_pqueue_push(queue, d, other);
     }
-    return true;
 }
 
 otx_status
@@ -470,22 +469,24 @@ otx_constraint_effect(
     uint8_t *effect = OTX_ZNEW(run->arena, uint8_t, c->level->face_count);
     otx_pqueue queue = otx_pqueue_make(run->scratch);
     otx_pqueue_entry entry;
-    bool fine = effect != NULL;
+    otx_status status;
     grip g;
 
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(check(run, &set, c, 0));
     g = take_hold(c, constraint);
-    for (int32_t f = g.first; fine && f < g.end; ++f)
+    for (int32_t f = g.first; f < g.end; ++f)
         if (holds(c, &g, f))
-            fine = otx_pqueue_push(&queue, 0.0, f);
-    while (fine && otx_pqueue_pop(&queue, &entry))
+            otx_pqueue_push(&queue, 0.0, f);
+    while (otx_pqueue_pop(&queue, &entry))
     {
         if (effect[entry.item])
             continue;
         effect[entry.item] = 1;
-        fine = push_around(c, &queue, effect, entry, radius);
+        push_around(c, &queue, effect, entry, radius);
     }
+    status = otx_run_ok(run);
     otx_arena_release(run->scratch, mark);
     *out = effect;
-    return fine ? OSDTEX_OK : otx_fail_memory(run, "field");
+    return status;
 }

@@ -139,8 +139,8 @@ unfold(
     uint8_t *done = OTX_ZNEW(scratch, uint8_t, chart->face_count);
     otx_vec2 *shape = OTX_NEW(scratch, otx_vec2, largest_face(chart));
 
-    if (!placed || !done || !shape ||
-        !otx_pqueue_push(&queue, 0.0, middle_face(chart, leaves)))
+    otx_pqueue_push(&queue, 0.0, middle_face(chart, leaves));
+    if (otx_arena_failed(scratch))
         return OSDTEX_ERROR_MEMORY;
     while (otx_pqueue_pop(&queue, &entry))
     {
@@ -163,13 +163,12 @@ unfold(
 
             if (slot < 0 || done[slot])
                 continue;
-            if (!otx_pqueue_push(
-                    &queue, entry.key + otx_dual_step(leaves, face, next, 0.0),
-                    slot))
-                return OSDTEX_ERROR_MEMORY;
+            otx_pqueue_push(
+                &queue, entry.key + otx_dual_step(leaves, face, next, 0.0),
+                slot);
         }
     }
-    return OSDTEX_OK;
+    return otx_arena_failed(scratch) ? OSDTEX_ERROR_MEMORY : OSDTEX_OK;
 }
 
 static void

@@ -133,7 +133,7 @@ keeps_disc(const gathering *g, int32_t face)
 }
 
 /* Offers the neighbours of a chart face to the queue. */
-static bool
+static void
 push_neighbours(gathering *g, otx_pqueue *queue, int32_t face, double reach)
 {
     const otx_chart_request *r = g->request;
@@ -149,10 +149,8 @@ push_neighbours(gathering *g, otx_pqueue *queue, int32_t face, double reach)
         step = r->texels * otx_dual_step(r->leaves, face, next, r->bend);
         if (reach + step > r->collar)
             continue;
-        if (!otx_pqueue_push(queue, reach + step, next))
-            return false;
+        otx_pqueue_push(queue, reach + step, next);
     }
-    return true;
 }
 
 /* Faces that would close the disc when their turn comes are dropped; a later
@@ -164,17 +162,16 @@ grow_collar(gathering *g, otx_arena *scratch)
     otx_pqueue_entry entry;
 
     for (int32_t i = 0; i < g->chart->core_count; ++i)
-        if (!push_neighbours(g, &queue, g->chart->faces[i], 0.0))
-            return false;
+        push_neighbours(g, &queue, g->chart->faces[i], 0.0);
     while (otx_pqueue_pop(&queue, &entry))
     {
         if (g->space->face_slot[entry.item] >= 0 || !keeps_disc(g, entry.item))
             continue;
-        if (!add_face(g, entry.item, entry.key) ||
-            !push_neighbours(g, &queue, entry.item, entry.key))
+        if (!add_face(g, entry.item, entry.key))
             return false;
+        push_neighbours(g, &queue, entry.item, entry.key);
     }
-    return true;
+    return !otx_arena_failed(scratch);
 }
 
 /* Corner lists in local vertices. */

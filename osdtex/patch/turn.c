@@ -112,23 +112,20 @@ otx_turn_next(otx_mosaic *m, otx_pqueue *queue, otx_fit *fits, int32_t *count)
         fits[(*count)++] = (otx_fit){.node = entry.item};
     }
     for (int32_t i = 0; i < held_count; ++i)
-        if (!otx_pqueue_push(queue, held[i].key, held[i].item))
-            return otx_fail_memory(m->job.run, "map");
-    return OSDTEX_OK;
+        otx_pqueue_push(queue, held[i].key, held[i].item);
+    return otx_run_ok(m->job.run);
 }
 
-bool
+void
 otx_turn_push(
     const otx_mosaic *m, otx_pqueue *queue, int32_t first, int32_t end)
 {
     for (int32_t i = first; i < end; ++i)
-        if (!m->forest.nodes[i].retired &&
-            !otx_pqueue_push(queue, otx_turn_key(m, i), i))
-            return false;
-    return true;
+        if (!m->forest.nodes[i].retired)
+            otx_pqueue_push(queue, otx_turn_key(m, i), i);
 }
 
-bool
+void
 otx_turn_wake(otx_mosaic *m, otx_pqueue *queue, int32_t index)
 {
     const otx_level *leaf = m->job.leaves.level;
@@ -149,11 +146,9 @@ otx_turn_wake(otx_mosaic *m, otx_pqueue *queue, int32_t index)
             next = &m->forest.nodes[m->forest.leaf_node[other]];
             next->textured += otx_forest_edge_length(
                 m, leaf->face_edges[leaf->face_first[f] + k]);
-            if (!otx_pqueue_push(
-                    queue, otx_turn_key(m, m->forest.leaf_node[other]),
-                    m->forest.leaf_node[other]))
-                return false;
+            otx_pqueue_push(
+                queue, otx_turn_key(m, m->forest.leaf_node[other]),
+                m->forest.leaf_node[other]);
         }
     }
-    return true;
 }

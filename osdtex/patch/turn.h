@@ -19,13 +19,12 @@ double otx_turn_key(const otx_mosaic *m, int32_t node);
 otx_status
 otx_turn_next(otx_mosaic *m, otx_pqueue *queue, otx_fit *fits, int32_t *count);
 
-/* Puts the nodes [first, end) that are not retired into the queue. False when
- * memory is out. */
-bool otx_turn_push(
+/* Puts the nodes [first, end) that are not retired into the queue. */
+void otx_turn_push(
     const otx_mosaic *m, otx_pqueue *queue, int32_t first, int32_t end);
 
 /* Tells the neighbours of a new patch that more of their border is textured,
- * and puts them into the queue again. False when memory is out. */
-bool otx_turn_wake(otx_mosaic *m, otx_pqueue *queue, int32_t index);
+ * and puts them into the queue again. */
+void otx_turn_wake(otx_mosaic *m, otx_pqueue *queue, int32_t index);
 
 #endif

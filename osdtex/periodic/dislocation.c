@@ -44,17 +44,17 @@ across(const otx_connection *c, int32_t edge, int32_t face)
     return faces[faces[0] == face];
 }
 
-static bool
+static void
 visit(search *q, int32_t face, double length, int32_t edge, int carried)
 {
     if (!(length < q->length[face]))
-        return true;
+        return;
     if (q->length[face] == INFINITY)
         q->touched[q->touched_count++] = face;
     q->length[face] = length;
     q->came[face] = edge;
     q->carried[face] = (int8_t)carried;
-    return otx_pqueue_push(&q->queue, length, face);
+    otx_pqueue_push(&q->queue, length, face);
 }
 
 static void
@@ -89,18 +89,17 @@ ends(const search *q, int32_t face, escape *out)
     return false;
 }
 
-/* The nearest end within reach for a charge; false when memory is out. */
-static bool
+/* The nearest end within reach for a charge. */
+static otx_status
 find_escape(search *q, int32_t face, escape *out)
 {
     const otx_connection *c = q->s->c;
     otx_pqueue_entry entry;
-    bool fine;
 
     forget(q);
     *out = (escape){INFINITY, face, -1, -1, q->charge[face]};
-    fine = visit(q, face, 0.0, -1, q->charge[face]);
-    while (fine && otx_pqueue_pop(&q->queue, &entry))
+    visit(q, face, 0.0, -1, q->charge[face]);
+    while (otx_pqueue_pop(&q->queue, &entry))
     {
         const int32_t at = entry.item;
 
@@ -109,10 +108,10 @@ find_escape(search *q, int32_t face, escape *out)
         if (ends(q, at, out))
         {
             out->length = entry.key;
-            return true;
+            break;
         }
         for (int32_t i = c->level->face_first[at];
-             fine && i < c->level->face_first[at + 1]; ++i)
+             i < c->level->face_first[at + 1]; ++i)
         {
             const int32_t edge = c->level->face_edges[i];
             const int32_t next = across(c, edge, at);
@@ -121,13 +120,13 @@ find_escape(search *q, int32_t face, escape *out)
                 otx_vec3_length(otx_vec3_sub(c->centres[next], c->centres[at]));
 
             if (length <= q->s->request->cancel)
-                fine = visit(
+                visit(
                     q, next, length, edge,
                     -q->carried[at] * otx_phase_orientation(q->s, at, edge) *
                         otx_phase_orientation(q->s, next, edge));
         }
     }
-    return fine;
+    return otx_run_ok(q->s->run);
 }
 
 /* -- moving charges ------------------------------------------------------ */
@@ -181,8 +180,7 @@ cancel_round(search *q, escape *list, bool *moved)
     for (int32_t f = 0; f < faces; ++f)
         if (q->charge[f] != 0)
         {
-            if (!find_escape(q, f, &list[count]))
-                return otx_fail_memory(q->s->run, "field");
+            OTX_TRY(find_escape(q, f, &list[count]));
             count += isfinite(list[count].length);
         }
     qsort(list, (size_t)count, sizeof *list, by_length);
@@ -193,8 +191,7 @@ cancel_round(search *q, escape *list, bool *moved)
         /* What was moved since may have taken the opposite away. */
         if (q->charge[list[i].from] != list[i].charge)
             continue;
-        if (!find_escape(q, list[i].from, &now))
-            return otx_fail_memory(q->s->run, "field");
+        OTX_TRY(find_escape(q, list[i].from, &now));
         if (now.length > list[i].length)
             continue;
         move(q, &now);

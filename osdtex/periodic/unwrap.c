@@ -6,7 +6,7 @@
 
 /* -- distance ------------------------------------------------------------ */
 
-static bool
+static void
 reach(
     const otx_connection *c, otx_pqueue *queue, double *distance, int32_t face)
 {
@@ -25,10 +25,8 @@ reach(
         if (!(d < distance[other]))
             continue;
         distance[other] = d;
-        if (!otx_pqueue_push(queue, d, other))
-            return false;
+        otx_pqueue_push(queue, d, other);
     }
-    return true;
 }
 
 otx_status
@@ -39,20 +37,22 @@ otx_phase_distance(
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     otx_pqueue queue = otx_pqueue_make(run->scratch);
     otx_pqueue_entry entry;
-    bool fine = distance != NULL;
+    otx_status status;
 
     *out = distance;
-    for (int32_t f = 0; fine && f < c->level->face_count; ++f)
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t f = 0; f < c->level->face_count; ++f)
     {
         distance[f] = marked[f] ? 0.0 : INFINITY;
         if (marked[f])
-            fine = otx_pqueue_push(&queue, 0.0, f);
+            otx_pqueue_push(&queue, 0.0, f);
     }
-    while (fine && otx_pqueue_pop(&queue, &entry))
+    while (otx_pqueue_pop(&queue, &entry))
         if (entry.key <= distance[entry.item])
-            fine = reach(c, &queue, distance, entry.item);
+            reach(c, &queue, distance, entry.item);
+    status = otx_run_ok(run);
     otx_arena_release(run->scratch, mark);
-    return fine ? OSDTEX_OK : otx_fail_memory(run, "field");
+    return status;
 }
 
 /* -- whole cells --------------------------------------------------------- */
@@ -113,7 +113,7 @@ agree(walk *w, int32_t face, int32_t from, int32_t edge)
         cells[i] = otx_vec2_add(otx_vec2_scale(sense, cells[i]), shift);
 }
 
-static bool
+static void
 push_neighbours(walk *w, int32_t face)
 {
     const otx_connection *c = w->phase->connection;
@@ -125,15 +125,13 @@ push_neighbours(walk *w, int32_t face)
         const int32_t *faces = c->level->edge_faces + 2 * (size_t)e;
         const int32_t other = faces[faces[0] == face];
 
-        if (c->inner[e] && w->flip[other] == 0 &&
-            !otx_pqueue_push(&w->queue, -w->distance[other], other))
-            return false;
+        if (c->inner[e] && w->flip[other] == 0)
+            otx_pqueue_push(&w->queue, -w->distance[other], other);
     }
-    return true;
 }
 
 /* Visits a component, beginning at `face`. */
-static bool
+static void
 visit_all(walk *w, int32_t face)
 {
     otx_pqueue_entry entry = {0.0, face};
@@ -150,10 +148,8 @@ visit_all(walk *w, int32_t face)
             agree(w, entry.item, from, edge);
         else
             w->flip[entry.item] = 1;
-        if (!push_neighbours(w, entry.item))
-            return false;
+        push_neighbours(w, entry.item);
     } while (otx_pqueue_pop(&w->queue, &entry));
-    return true;
 }
 
 otx_status
@@ -166,14 +162,16 @@ otx_phase_unwrap(otx_run *run, otx_phase *phase, const double *distance)
         otx_pqueue_make(run->scratch)};
     otx_pqueue seeds = otx_pqueue_make(run->scratch);
     otx_pqueue_entry entry;
-    bool fine = w.flip != NULL;
+    otx_status status;
 
-    for (int32_t f = 0; fine && f < count; ++f)
-        fine = otx_pqueue_push(&seeds, -distance[f], f);
-    while (fine && otx_pqueue_pop(&seeds, &entry))
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t f = 0; f < count; ++f)
+        otx_pqueue_push(&seeds, -distance[f], f);
+    while (otx_pqueue_pop(&seeds, &entry))
         if (w.flip[entry.item] == 0)
-            fine = visit_all(&w, entry.item);
+            visit_all(&w, entry.item);
     phase->sense = w.flip;
+    status = otx_run_ok(run);
     otx_arena_release(run->scratch, mark);
-    return fine ? OSDTEX_OK : otx_fail_memory(run, "field");
+    return status;
 }

@@ -42,7 +42,7 @@ is_at_seam(const walk *w, int32_t face)
     return false;
 }
 
-static bool
+static void
 start(walk *w)
 {
     for (int32_t f = 0; f < w->leaf->face_count; ++f)
@@ -50,10 +50,9 @@ start(walk *w)
         const bool seed = w->face_patch[f] >= 0 && is_at_seam(w, f);
 
         w->nearest[f] = seed ? 0.0 : INFINITY;
-        if (seed && !otx_pqueue_push(&w->queue, 0.0, f))
-            return false;
+        if (seed)
+            otx_pqueue_push(&w->queue, 0.0, f);
     }
-    return true;
 }
 
 /* Between the centres of two neighbours. */
@@ -72,7 +71,7 @@ step(const walk *w, int32_t face, int32_t other)
 }
 
 /* Goes on to the neighbours of `face`, no farther than `distance`. */
-static bool
+static void
 spread(walk *w, int32_t face, double distance)
 {
     for (int32_t k = 0; k < otx_level_face_size(w->leaf, face); ++k)
@@ -86,23 +85,20 @@ spread(walk *w, int32_t face, double distance)
         if (!(d < w->nearest[other]) || d > distance)
             continue;
         w->nearest[other] = d;
-        if (!otx_pqueue_push(&w->queue, d, other))
-            return false;
+        otx_pqueue_push(&w->queue, d, other);
     }
-    return true;
 }
 
-/* False when memory is out. */
-static bool
-go(walk *w, double distance)
+static otx_status
+go(otx_run *run, walk *w, double distance)
 {
     otx_pqueue_entry entry;
-    bool fine = start(w);
 
-    while (fine && otx_pqueue_pop(&w->queue, &entry))
+    start(w);
+    while (otx_pqueue_pop(&w->queue, &entry))
         if (entry.key <= w->nearest[entry.item])
-            fine = spread(w, entry.item, distance);
-    return fine;
+            spread(w, entry.item, distance);
+    return otx_run_ok(run);
 }
 
 otx_status
@@ -119,8 +115,8 @@ otx_distance_mark(
         .queue = otx_pqueue_make(run->scratch)};
 
     *out = OTX_NEW(run->scratch, uint8_t, leaf->face_count);
-    if (!*out || !w.nearest || !go(&w, distance))
-        return otx_fail_memory(run, "relax");
+    OTX_TRY(otx_run_ok(run));
+    OTX_TRY(go(run, &w, distance));
     for (int32_t f = 0; f < leaf->face_count; ++f)
         (*out)[f] = isfinite(w.nearest[f]);
     return OSDTEX_OK;
@@ -146,8 +142,7 @@ otx_distance_measure(
     OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
         labels[f] = leaf->face_hole[f] ? -1 : label[f];
-    if (!go(&w, limit))
-        return otx_fail_memory(run, "map");
+    OTX_TRY(go(run, &w, limit));
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }

@@ -20,8 +20,7 @@ descend(otx_mosaic *m, otx_pqueue *queue, int32_t index)
 
     OTX_TRY(otx_forest_split(m, index));
     OTX_TRY(otx_forest_settle(m, first));
-    if (!otx_turn_push(m, queue, first, m->forest.count))
-        return otx_fail_memory(m->job.run, "map");
+    otx_turn_push(m, queue, first, m->forest.count);
     return OSDTEX_OK;
 }
 
@@ -53,10 +52,7 @@ settle(otx_mosaic *m, otx_pqueue *queue, const otx_fit *fits, int32_t count)
         const int32_t index = fits[i].node;
 
         if (otx_fit_commit(m, &fits[i]))
-        {
-            if (!otx_turn_wake(m, queue, index))
-                return otx_fail_memory(m->job.run, "map");
-        }
+            otx_turn_wake(m, queue, index);
         else if (!otx_forest_can_split(m, &m->forest.nodes[index]))
             return fails_to_fit(m, index);
         else
@@ -73,18 +69,17 @@ fit_all(otx_mosaic *m)
     otx_fit fits[OTX_TURN_NODES];
     int32_t count;
 
-    if ((first >= 0 && !otx_pqueue_push(&queue, -INFINITY, first)) ||
-        !otx_turn_push(m, &queue, 0, m->forest.count))
-        return otx_fail_memory(m->job.run, "map");
+    if (first >= 0)
+        otx_pqueue_push(&queue, -INFINITY, first);
+    otx_turn_push(m, &queue, 0, m->forest.count);
     OTX_TRY(otx_turn_next(m, &queue, fits, &count));
     while (count > 0)
     {
         OTX_TRY(otx_fit_find(m, fits, count));
         OTX_TRY(settle(m, &queue, fits, count));
         /* The user's first patch was split: its part comes first. */
-        if (first >= 0 && m->cover.patch_count == 0 &&
-            !otx_pqueue_push(&queue, -INFINITY, otx_first_node(m)))
-            return otx_fail_memory(m->job.run, "map");
+        if (first >= 0 && m->cover.patch_count == 0)
+            otx_pqueue_push(&queue, -INFINITY, otx_first_node(m));
         OTX_TRY(otx_progress(
             m->job.run, "fit",
             fmin(1.0, m->cover.done_area / m->cover.total_area)));

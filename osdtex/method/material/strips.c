@@ -236,35 +236,35 @@ prepare_tour(const otx_strips *s, tour *t)
     return OSDTEX_OK;
 }
 
-static bool
+static void
 push_contacts(const otx_strips *s, tour *t, int32_t strip)
 {
     t->seen[strip] = 1;
     for (int32_t i = t->first[strip]; i < t->first[strip + 1]; ++i)
-        if (!otx_pqueue_push(
-                &t->queue, -fabs(s->contacts[t->list[i]].agree), t->list[i]))
-            return false;
-    return true;
+        otx_pqueue_push(
+            &t->queue, -fabs(s->contacts[t->list[i]].agree), t->list[i]);
 }
 
 otx_status
 otx_strips_visit(otx_strips *s, otx_strips_visitor *visitor)
 {
-    const otx_arena_mark mark = otx_arena_here(s->m->job->run->scratch);
-    otx_pqueue seeds = otx_pqueue_make(s->m->job->run->scratch);
+    otx_run *run = s->m->job->run;
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    otx_pqueue seeds = otx_pqueue_make(run->scratch);
     otx_pqueue_entry seed, entry;
+    otx_status status;
     tour t;
-    bool fine = prepare_tour(s, &t) == OSDTEX_OK;
 
-    for (int32_t i = 0; fine && i < s->count; ++i)
-        fine = otx_pqueue_push(&seeds, -(double)s->strips[i].faces, i);
-    while (fine && otx_pqueue_pop(&seeds, &seed))
+    OTX_TRY(prepare_tour(s, &t));
+    for (int32_t i = 0; i < s->count; ++i)
+        otx_pqueue_push(&seeds, -(double)s->strips[i].faces, i);
+    while (otx_pqueue_pop(&seeds, &seed))
     {
         if (t.seen[seed.item])
             continue;
         visitor(s, seed.item, -1, NULL);
-        fine = push_contacts(s, &t, seed.item);
-        while (fine && otx_pqueue_pop(&t.queue, &entry))
+        push_contacts(s, &t, seed.item);
+        while (otx_pqueue_pop(&t.queue, &entry))
         {
             const otx_strip_contact *c = &s->contacts[entry.item];
             const bool back = t.seen[c->b];
@@ -273,11 +273,12 @@ otx_strips_visit(otx_strips *s, otx_strips_visitor *visitor)
             if (t.seen[strip])
                 continue;
             visitor(s, strip, back ? c->b : c->a, c);
-            fine = push_contacts(s, &t, strip);
+            push_contacts(s, &t, strip);
         }
     }
-    otx_arena_release(s->m->job->run->scratch, mark);
-    return fine ? OSDTEX_OK : otx_fail_memory(s->m->job->run, "map");
+    status = otx_run_ok(run);
+    otx_arena_release(run->scratch, mark);
+    return status;
 }
 
 /* -- the whole ----------------------------------------------------------- */

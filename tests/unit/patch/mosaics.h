@@ -50,7 +50,7 @@ mosaic_fit(otx_mosaic *m)
     int32_t count;
 
     assert_int_equal(otx_forest_settle(m, 0), OSDTEX_OK);
-    assert_true(otx_turn_push(m, &queue, 0, m->forest.count));
+    otx_turn_push(m, &queue, 0, m->forest.count);
     assert_int_equal(otx_turn_next(m, &queue, fits, &count), OSDTEX_OK);
     while (count > 0)
     {
@@ -58,7 +58,7 @@ mosaic_fit(otx_mosaic *m)
         for (int32_t i = 0; i < count; ++i)
         {
             assert_true(otx_fit_commit(m, &fits[i]));
-            assert_true(otx_turn_wake(m, &queue, fits[i].node));
+            otx_turn_wake(m, &queue, fits[i].node);
         }
         assert_int_equal(otx_turn_next(m, &queue, fits, &count), OSDTEX_OK);
     }
