@@ -30,7 +30,6 @@ typedef struct job
     const otx_mip *mip;
     const otx_bake_sink *sink;
     batch done, next;
-    int64_t overlaps[BATCH];
 } job;
 
 static otx_status
@@ -61,10 +60,9 @@ make_block(job *j, int32_t i, otx_worker *worker)
         .y = (int32_t)(index / j->mip->columns),
         .pixels = pixels};
 
-    j->overlaps[i] = 0;
     if (!pixels || !otx_texel_bake(
                        &j->bake->source, j->mip, block.x, block.y,
-                       worker->scratch, pixels, &j->overlaps[i]))
+                       worker->scratch, pixels))
         return OSDTEX_ERROR_MEMORY;
     block.stride = (ptrdiff_t)otx_mip_block_size(j->mip, block.x) * channels;
     j->sink->take(j->sink->user, j->next.slot + i, worker->index, &block);
@@ -95,7 +93,7 @@ fraction_of(const otx_mip *mip, int64_t block)
 }
 
 static otx_status
-bake_page(otx_run *run, otx_bake *bake, job *j)
+bake_page(otx_run *run, job *j)
 {
     const int64_t blocks = (int64_t)j->mip->columns * j->mip->columns;
 
@@ -111,8 +109,6 @@ bake_page(otx_run *run, otx_bake *bake, job *j)
         if (status == OSDTEX_ERROR_MEMORY)
             return otx_fail_memory(run, STAGE);
         OTX_TRY(status);
-        for (int32_t i = 0; j->mip->level == 0 && i < j->next.count; ++i)
-            bake->overlaps += j->overlaps[i];
         first += j->next.count;
 
         const batch swap = j->done;
@@ -125,7 +121,7 @@ bake_page(otx_run *run, otx_bake *bake, job *j)
 
 static otx_status
 bake_levels(
-    otx_run *run, otx_bake *bake, int32_t tile, const otx_bake_sink *sink)
+    otx_run *run, const otx_bake *bake, int32_t tile, const otx_bake_sink *sink)
 {
     const otx_layout *layout = bake->source.layout;
     const int32_t levels = otx_pyramid_count(layout->side, layout->side);
@@ -149,7 +145,7 @@ bake_levels(
 
         mip.blend = 0.5 * bake->seam_blend * pow(0.5, mip.level);
         OTX_TRY(otx_mip_build(run, run->scratch, &mip));
-        OTX_TRY(bake_page(run, bake, j));
+        OTX_TRY(bake_page(run, j));
         otx_arena_release(run->scratch, mark);
     }
     return OSDTEX_OK;
@@ -157,7 +153,7 @@ bake_levels(
 
 otx_status
 otx_bake_tile(
-    otx_run *run, otx_bake *bake, int32_t tile, const otx_bake_sink *sink)
+    otx_run *run, const otx_bake *bake, int32_t tile, const otx_bake_sink *sink)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     const otx_status status = bake_levels(run, bake, tile, sink);

@@ -49,7 +49,6 @@ typedef struct otx_bake
 {
     otx_texel_source source;
     double seam_blend;
-    int64_t overlaps; /* samples of level 0 that several faces claim */
 } otx_bake;
 
 /* Prepares a bake, in run->arena; borrows all. MEMORY. */
@@ -60,7 +59,8 @@ otx_status otx_bake_create(
 /* Bakes the layout's tile number `tile` (its index), all levels. The same bits
  * for any number of threads. CANCELLED, MEMORY, what the sink returns. */
 otx_status otx_bake_tile(
-    otx_run *run, otx_bake *bake, int32_t tile, const otx_bake_sink *sink);
+    otx_run *run, const otx_bake *bake, int32_t tile,
+    const otx_bake_sink *sink);
 
 /* "color", "patch", "uv", "stretch", "seam", "source". */
 const char *otx_bake_kind_name(otx_texel_kind kind);

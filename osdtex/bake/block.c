@@ -47,11 +47,10 @@ allocate(otx_block *b, otx_arena *scratch)
     return true;
 }
 
-static int64_t
+static void
 draw_face(otx_block *b, int32_t face)
 {
     const otx_level *leaf = otx_surface_leaf(b->source->layout->surface);
-    int64_t overlaps = 0;
 
     for (int32_t k = 0; k < otx_facet_count(leaf, face); ++k)
     {
@@ -61,25 +60,21 @@ draw_face(otx_block *b, int32_t face)
             otx_mip_texel(b->mip, facet.corners[1]),
             otx_mip_texel(b->mip, facet.corners[2])};
 
-        overlaps +=
-            otx_raster_triangle(&b->raster, p, otx_mip_facet_id(face, k));
+        otx_raster_triangle(&b->raster, p, otx_mip_facet_id(face, k));
     }
-    return overlaps;
 }
 
 /* Those of a block, in a bin. */
-static int64_t
+static void
 draw_faces(otx_block *b, int64_t index)
 {
     const otx_layout *layout = b->source->layout;
     const int32_t *faces =
         layout->tile_faces + layout->tile_first[b->mip->tile];
     const otx_bin *bin = &b->mip->faces;
-    int64_t overlaps = 0;
 
     for (int64_t i = bin->first[index]; i < bin->first[index + 1]; ++i)
-        overlaps += draw_face(b, faces[bin->items[i]]);
-    return overlaps;
+        draw_face(b, faces[bin->items[i]]);
 }
 
 /* Those of `edges` in a bin, as far as `radius` texels around them. */
@@ -100,7 +95,7 @@ draw_edges(
 bool
 otx_block_draw(
     const otx_texel_source *source, const otx_mip *mip, int32_t x, int32_t y,
-    otx_arena *scratch, otx_block *out, int64_t *overlaps)
+    otx_arena *scratch, otx_block *out)
 {
     const int64_t index = (int64_t)y * mip->columns + x;
     const int64_t rim = mip->near_rims.first[index];
@@ -115,7 +110,7 @@ otx_block_draw(
     place(out, x, y);
     if (!allocate(out, scratch))
         return false;
-    *overlaps += draw_faces(out, index);
+    draw_faces(out, index);
     draw_edges(
         out, mip->rims, &mip->near_rims, index, mip->gutter, &out->near_rim);
     draw_edges(

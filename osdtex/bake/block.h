@@ -28,12 +28,10 @@ typedef struct otx_block
 } otx_block;
 
 /* Places block (x, y), of which rows count from the top, and draws the faces,
- * rims and seams in it. False when memory is out.
- *
- *   overlaps  added to: samples that several faces claim */
+ * rims and seams in it. False when memory is out. */
 bool otx_block_draw(
     const otx_texel_source *source, const otx_mip *mip, int32_t x, int32_t y,
-    otx_arena *scratch, otx_block *out, int64_t *overlaps);
+    otx_arena *scratch, otx_block *out);
 
 /* Where a walk from a facet to a texel position ends. */
 otx_walk otx_block_walk(

@@ -4,8 +4,8 @@
 #include <string.h>
 
 /* In barycentric coordinates: what is on an edge belongs to both faces, so
- * that rounding leaves no hole between them; and what is well inside. */
-static const double ON_EDGE = 1e-7, WELL_INSIDE = 0.01;
+ * that rounding leaves no hole between them. */
+static const double ON_EDGE = 1e-7;
 
 bool
 otx_raster_begin(otx_arena *arena, otx_raster *raster)
@@ -88,21 +88,12 @@ cut_row(
     cut(low, high, count, first, end);
 }
 
-static bool
-is_well_inside(const plane planes[3], int32_t i, int32_t j)
-{
-    for (int k = 0; k < 3; ++k)
-        if (planes[k].c + planes[k].x * i + planes[k].y * j < WELL_INSIDE)
-            return false;
-    return true;
-}
-
-int32_t
+void
 otx_raster_triangle(otx_raster *raster, const otx_vec2 p[3], int64_t id)
 {
     const int32_t across = raster->width * raster->n;
     double low = INFINITY, high = -INFINITY;
-    int32_t j, j_end, overlaps = 0;
+    int32_t j, j_end;
     plane planes[3];
     otx_vec2 q[3];
 
@@ -115,7 +106,7 @@ otx_raster_triangle(otx_raster *raster, const otx_vec2 p[3], int64_t id)
         high = fmax(high, q[k].y);
     }
     if (!set_planes(q, planes))
-        return 0;
+        return;
     cut(low - ON_EDGE, high + ON_EDGE, raster->height * raster->n, &j, &j_end);
     for (; j < j_end; ++j)
     {
@@ -124,14 +115,9 @@ otx_raster_triangle(otx_raster *raster, const otx_vec2 p[3], int64_t id)
 
         cut_row(planes, j, across, &i, &i_end);
         for (; i < i_end; ++i)
-        {
             if (row[i] < 0)
                 row[i] = id;
-            else
-                overlaps += is_well_inside(planes, i, j);
-        }
     }
-    return overlaps;
 }
 
 double

@@ -29,12 +29,8 @@ bool otx_raster_begin(otx_arena *arena, otx_raster *raster);
 /* Puts `id` at the samples in a triangle that have none yet: of several facets
  * the first drawn holds, so that shared edges belong to one.
  *
- *   p  corners in texels of the level, any winding
- *
- * Returns the samples well inside it (farther than a hundredth of its size
- * from its edges) that had another: faces that lie on top of each other. */
-int32_t
-otx_raster_triangle(otx_raster *raster, const otx_vec2 p[3], int64_t id);
+ *   p  corners in texels of the level, any winding */
+void otx_raster_triangle(otx_raster *raster, const otx_vec2 p[3], int64_t id);
 
 /* No edge near any texel. False when memory is out. */
 bool otx_raster_near_begin(

@@ -109,11 +109,11 @@ fit_to_lookups(const picture *p, float *pixels)
 bool
 otx_texel_bake(
     const otx_texel_source *source, const otx_mip *mip, int32_t x, int32_t y,
-    otx_arena *scratch, float *pixels, int64_t *overlaps)
+    otx_arena *scratch, float *pixels)
 {
     picture p = {.beyond = otx_gutter_begin()};
 
-    if (!otx_block_draw(source, mip, x, y, scratch, &p.block, overlaps))
+    if (!otx_block_draw(source, mip, x, y, scratch, &p.block))
         return false;
 
     const size_t texels =

@@ -7,12 +7,11 @@
 
 /* Bakes one block into pixels[height * width * channels], bottom row first.
  *
- *   x, y      of the block; rows count from the top
- *   overlaps  added to: samples that several faces claim
+ *   x, y  of the block; rows count from the top
  *
  * False when memory is out. */
 bool otx_texel_bake(
     const otx_texel_source *source, const otx_mip *mip, int32_t x, int32_t y,
-    otx_arena *scratch, float *pixels, int64_t *overlaps);
+    otx_arena *scratch, float *pixels);
 
 #endif

@@ -220,7 +220,7 @@ write_preview(const writer *w, int32_t tile, otx_image *image)
 
 /* Bakes the colour of one tile into an 8-bit PNG and nothing else. */
 static otx_status
-write_png_tile(const writer *w, otx_bake *bake, int32_t tile)
+write_png_tile(const writer *w, const otx_bake *bake, int32_t tile)
 {
     const int32_t side = w->layout->side;
     target t = {.preview_level = 0};
@@ -240,7 +240,7 @@ write_png_tile(const writer *w, otx_bake *bake, int32_t tile)
 
 /* Bakes one kind of one tile into its file. */
 static otx_status
-write_tile(const writer *w, otx_bake *bake, int32_t tile, bool preview)
+write_tile(const writer *w, const otx_bake *bake, int32_t tile, bool preview)
 {
     const otx_texel_kind kind = bake->source.kind;
     const int32_t side = w->layout->side;

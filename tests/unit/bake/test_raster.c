@@ -43,7 +43,7 @@ samples_are_those_inside(void **state)
             random_point(i), random_point(i + 1), random_point(i + 2)};
         const double turn = left_of(p[0], p[1], p[2]) > 0.0 ? 1.0 : -1.0;
 
-        assert_int_equal(otx_raster_triangle(&raster, p, 42), 0);
+        otx_raster_triangle(&raster, p, 42);
         for (int32_t y = 0; y < 14; ++y)
             for (int32_t x = 0; x < 18; ++x)
             {
@@ -74,8 +74,8 @@ shared_edges_belong_to_the_first(void **state)
     const otx_vec2 b[3] = {{0, 0}, {0, 8}, {8, 8}}; /* the other way round */
 
     (void)state;
-    assert_int_equal(otx_raster_triangle(&raster, a, 1), 0);
-    assert_int_equal(otx_raster_triangle(&raster, b, 2), 0);
+    otx_raster_triangle(&raster, a, 1);
+    otx_raster_triangle(&raster, b, 2);
     for (int32_t y = 0; y < 16; ++y)
         for (int32_t x = 0; x < 16; ++x)
             assert_int_equal(raster.facets[y * 16 + x], x >= y ? 1 : 2);
@@ -83,7 +83,7 @@ shared_edges_belong_to_the_first(void **state)
 }
 
 static void
-what_lies_on_top_is_counted(void **state)
+what_lies_on_top_stays_below_the_first(void **state)
 {
     otx_run *run = test_run_create();
     otx_raster raster = make(run, 0.0, 0.0, 4, 4, 1);
@@ -92,11 +92,11 @@ what_lies_on_top_is_counted(void **state)
     const otx_vec2 wild[3] = {{NAN, 0}, {2, 2}, {INFINITY, 4}};
 
     (void)state;
-    assert_int_equal(otx_raster_triangle(&raster, none, 1), 0);
-    assert_int_equal(otx_raster_triangle(&raster, wild, 1), 0);
+    otx_raster_triangle(&raster, none, 1);
+    otx_raster_triangle(&raster, wild, 1);
     assert_int_equal(raster.facets[0], -1);
-    assert_int_equal(otx_raster_triangle(&raster, all, 2), 0);
-    assert_int_equal(otx_raster_triangle(&raster, all, 3), 16);
+    otx_raster_triangle(&raster, all, 2);
+    otx_raster_triangle(&raster, all, 3);
     for (int32_t i = 0; i < 16; ++i)
         assert_int_equal(raster.facets[i], 2);
     test_run_destroy(run);
@@ -167,7 +167,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_are_those_inside),
         cmocka_unit_test(shared_edges_belong_to_the_first),
-        cmocka_unit_test(what_lies_on_top_is_counted),
+        cmocka_unit_test(what_lies_on_top_stays_below_the_first),
         cmocka_unit_test(texels_have_their_nearest_edge),
         cmocka_unit_test(nearest_stays_on_the_segment),
     };
