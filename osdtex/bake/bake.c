@@ -6,7 +6,8 @@
 
 #include "mapping/source.h"
 
-#include <stdlib.h>
+#include <math.h>
+#include <string.h>
 
 static const char STAGE[] = "bake";
 
@@ -29,6 +30,7 @@ typedef struct job
     const otx_bake *bake;
     const otx_mip *mip;
     const otx_bake_sink *sink;
+    int32_t level_count; /* that are baked */
     batch done, next;
 } job;
 
@@ -64,7 +66,9 @@ make_block(job *j, int32_t i, otx_worker *worker)
                        &j->bake->source, j->mip, block.x, block.y,
                        worker->scratch, pixels))
         return OSDTEX_ERROR_MEMORY;
-    block.stride = (ptrdiff_t)otx_mip_block_size(j->mip, block.x) * channels;
+    block.width = otx_mip_block_size(j->mip, block.x);
+    block.height = otx_mip_block_size(j->mip, block.y);
+    block.stride = (ptrdiff_t)block.width * channels;
     j->sink->take(j->sink->user, j->next.slot + i, worker->index, &block);
     return OSDTEX_OK;
 }
@@ -79,17 +83,32 @@ work(void *context, int64_t index, otx_worker *worker)
                       : make_block(j, (int32_t)index - 1, worker);
 }
 
-/* Level 0 is three quarters of the work, and so on. */
+/* How far the tile is: level 0 is about three quarters of the work, and so on.
+ */
 static double
-fraction_of(const otx_mip *mip, int64_t block)
+fraction_of(const job *j, int64_t block)
 {
-    const double blocks = (double)mip->columns * mip->columns;
-    const double before = 1.0 - pow(0.25, mip->level);
-    const double tiles = mip->layout->tile_count;
+    const double blocks = (double)j->mip->columns * j->mip->columns;
+    const double whole = 1.0 - pow(0.25, j->level_count);
+    const double at = pow(0.25, j->mip->level - j->sink->first_level);
+    const double done = (1.0 - at + 0.75 * at * (double)block / blocks) / whole;
 
-    return (mip->tile + before +
-            (1.0 - before) * 0.75 * (double)block / blocks) /
-           tiles;
+    return fmin(j->sink->begin + j->sink->share * done, 1.0);
+}
+
+/* Makes the next batch, and puts the one before. */
+static otx_status
+run_batch(otx_run *run, job *j)
+{
+    otx_status status;
+
+    if (j->sink->put_by_caller)
+    {
+        OTX_TRY(put_batch(j));
+        j->done.count = 0;
+    }
+    status = otx_pool_for(run->pool, j->next.count + 1, work, j);
+    return status == OSDTEX_ERROR_MEMORY ? otx_fail_memory(run, STAGE) : status;
 }
 
 static otx_status
@@ -100,15 +119,11 @@ bake_page(otx_run *run, job *j)
     for (int64_t first = 0; first < blocks || j->done.count > 0;)
     {
         const int64_t left = blocks - first;
-        otx_status status;
 
         j->next.first = first;
         j->next.count = left < BATCH ? (int32_t)left : BATCH;
-        OTX_TRY(otx_progress(run, STAGE, fraction_of(j->mip, first)));
-        status = otx_pool_for(run->pool, j->next.count + 1, work, j);
-        if (status == OSDTEX_ERROR_MEMORY)
-            return otx_fail_memory(run, STAGE);
-        OTX_TRY(status);
+        OTX_TRY(otx_progress(run, STAGE, fraction_of(j, first)));
+        OTX_TRY(run_batch(run, j));
         first += j->next.count;
 
         const batch swap = j->done;
@@ -119,12 +134,21 @@ bake_page(otx_run *run, job *j)
     return OSDTEX_OK;
 }
 
+static int32_t
+level_count(const otx_layout *layout, const otx_bake_sink *sink)
+{
+    const int32_t left =
+        otx_pyramid_count(layout->side, layout->side) - sink->first_level;
+
+    return sink->level_count > 0 && sink->level_count < left ? sink->level_count
+                                                             : left;
+}
+
 static otx_status
 bake_levels(
     otx_run *run, const otx_bake *bake, int32_t tile, const otx_bake_sink *sink)
 {
     const otx_layout *layout = bake->source.layout;
-    const int32_t levels = otx_pyramid_count(layout->side, layout->side);
     otx_mip mip = {.layout = layout, .tile = tile};
     job *j = OTX_ZNEW(run->scratch, job, 1);
 
@@ -133,16 +157,18 @@ bake_levels(
     j->bake = bake;
     j->sink = sink;
     j->mip = &mip;
+    j->level_count = level_count(layout, sink);
     OTX_TRY(otx_mip_find_rims(
         run, run->scratch, layout, tile, &mip.rims, &mip.rim_count));
     if (bake->seam_blend > 0.0)
         OTX_TRY(otx_mip_find_seams(
             run, run->scratch, layout, bake->source.mapping->face_patch, tile,
             &mip.seams, &mip.seam_count));
-    for (mip.level = 0; mip.level < levels; ++mip.level)
+    for (int32_t l = 0; l < j->level_count; ++l)
     {
         const otx_arena_mark mark = otx_arena_here(run->scratch);
 
+        mip.level = sink->first_level + l;
         mip.blend = 0.5 * bake->seam_blend * pow(0.5, mip.level);
         OTX_TRY(otx_mip_build(run, run->scratch, &mip));
         OTX_TRY(bake_page(run, j));
@@ -232,11 +258,25 @@ otx_bake_create(
         find_range(
             exemplars, count, out->source.channels, out->source.low,
             out->source.high);
-    for (int32_t k = 0; k < count; ++k)
+    for (int32_t k = 0; options->kind == OTX_TEXEL_COLOR && k < count; ++k)
         OTX_TRY(otx_texture_create(
             run, run->arena, &exemplars[k].linear, exemplars[k].wrap_x,
             exemplars[k].wrap_y, &out->source.textures[k]));
     return OSDTEX_OK;
+}
+
+void
+otx_bake_copy(const otx_bake_block *block, const otx_image *image)
+{
+    const int32_t bottom =
+        image->height - block->y * OTX_MIP_BLOCK - block->height;
+    const size_t row =
+        (size_t)block->width * (size_t)image->channels * sizeof(float);
+
+    for (int32_t y = 0; y < block->height; ++y)
+        memcpy(
+            otx_image_at(image, block->x * OTX_MIP_BLOCK, bottom + y),
+            block->pixels + y * block->stride, row);
 }
 
 const char *

@@ -17,8 +17,10 @@ enum
 typedef struct otx_bake_block
 {
     int32_t level, x, y;
-    const float *pixels; /* the lower left texel */
-    ptrdiff_t stride;    /* floats from a row to the one above */
+    int32_t width, height; /* texels, OTX_MIP_BLOCK but at the right and lower
+                            * rim */
+    const float *pixels;   /* the lower left texel */
+    ptrdiff_t stride;      /* floats from a row to the one above */
 } otx_bake_block;
 
 /* Where the blocks go.
@@ -27,7 +29,7 @@ typedef struct otx_bake_block
  *         what can be done to blocks side by side. `slot` is its number until
  *         it is put, `lane` the thread's. The pixels are gone afterwards.
  *   put   gets the slots in file order, one at a time: levels from 0 up, rows
- *         from the top. */
+ *         from the top. On any thread, beside the blocks that are made. */
 typedef struct otx_bake_sink
 {
     void (*take)(
@@ -35,6 +37,13 @@ typedef struct otx_bake_sink
     otx_status (*put)(
         void *user, int32_t slot, int32_t level, int32_t x, int32_t y);
     void *user;
+    bool put_by_caller;  /* put is called by the thread that bakes, while the
+                          * others wait */
+    int32_t first_level; /* that it gets */
+    int32_t level_count; /* and how many; 0: all that there are */
+    /* What the tile is of all that is made: progress goes from `begin` on by
+     * `share`. */
+    double begin, share;
 } otx_bake_sink;
 
 typedef struct otx_bake_options
@@ -56,11 +65,15 @@ otx_status otx_bake_create(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_layout *layout, const otx_bake_options *options, otx_bake *out);
 
-/* Bakes the layout's tile number `tile` (its index), all levels. The same bits
- * for any number of threads. CANCELLED, MEMORY, what the sink returns. */
+/* Bakes the layout's tile number `tile` (its index), each level by itself. The
+ * same bits for any number of threads. CANCELLED, MEMORY, what the sink
+ * returns. */
 otx_status otx_bake_tile(
     otx_run *run, const otx_bake *bake, int32_t tile,
     const otx_bake_sink *sink);
+
+/* Puts a block into a picture of its level. */
+void otx_bake_copy(const otx_bake_block *block, const otx_image *image);
 
 /* "color", "patch", "uv", "stretch", "seam", "source". */
 const char *otx_bake_kind_name(otx_texel_kind kind);

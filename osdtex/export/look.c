@@ -111,28 +111,12 @@ typedef struct target
 } target;
 
 static void
-copy_block(const target *t, const otx_bake_block *block)
-{
-    const otx_image *image = &t->preview;
-    const int32_t left = block->x * OTX_EXR_TILE, top = block->y * OTX_EXR_TILE;
-    const int32_t wide = image->width - left, high = image->height - top;
-    const int32_t width = wide < OTX_EXR_TILE ? wide : OTX_EXR_TILE;
-    const int32_t height = high < OTX_EXR_TILE ? high : OTX_EXR_TILE;
-
-    for (int32_t row = 0; row < height; ++row)
-        memcpy(
-            otx_image_at(image, left, image->height - top - height + row),
-            block->pixels + row * block->stride,
-            (size_t)width * (size_t)image->channels * sizeof *block->pixels);
-}
-
-static void
 take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 {
     target *t = user;
 
     if (block->level == t->preview_level)
-        copy_block(t, block);
+        otx_bake_copy(block, &t->preview);
     if (t->exr)
         otx_exr_pack(
             t->exr, lane, block->level, block->x, block->y, block->pixels,
@@ -146,6 +130,30 @@ put(void *user, int32_t slot, int32_t level, int32_t x, int32_t y)
 
     return t->exr ? otx_exr_put(t->exr, level, x, y, &t->chunks[slot])
                   : OSDTEX_OK;
+}
+
+/* Into a target, and which part of all that is baked a tile of a kind is. */
+static otx_bake_sink
+sink_of(const writer *w, otx_texel_kind kind, int32_t tile, target *t)
+{
+    const int32_t tiles = w->options->udim != 0 ? 1 : w->layout->tile_count;
+    const int32_t at = w->options->udim != 0 ? 0 : tile;
+    int32_t before = 0, kinds = 0;
+    double share;
+
+    for (int32_t k = 0; k < OTX_TEXEL_KIND_COUNT; ++k)
+        if (k == OTX_TEXEL_COLOR || w->options->extras[k])
+        {
+            before += k < (int32_t)kind;
+            ++kinds;
+        }
+    share = 1.0 / ((double)kinds * tiles);
+    return (otx_bake_sink){
+        .take = take,
+        .put = put,
+        .user = t,
+        .begin = share * ((double)before * tiles + at),
+        .share = share};
 }
 
 /* Room for what is taken and not yet put. */
@@ -224,10 +232,11 @@ write_png_tile(const writer *w, const otx_bake *bake, int32_t tile)
 {
     const int32_t side = w->layout->side;
     target t = {.preview_level = 0};
-    const otx_bake_sink sink = {take, put, &t};
+    otx_bake_sink sink = sink_of(w, OTX_TEXEL_COLOR, tile, &t);
     char suffix[SUFFIX_BYTES];
     const char *path;
 
+    sink.level_count = 1;
     tile_suffix(OTX_TEXEL_COLOR, w->layout->tiles[tile], ".png", suffix);
     path = path_of(w, suffix);
     OTX_TRY(otx_run_ok(w->run));
@@ -251,7 +260,7 @@ write_tile(const writer *w, const otx_bake *bake, int32_t tile, bool preview)
     otx_exr_options options = exr_options(w, kind);
     const otx_exr_size size = {side, side, bake->source.channels};
     target t = {.preview_level = -1};
-    const otx_bake_sink sink = {take, put, &t};
+    const otx_bake_sink sink = sink_of(w, kind, tile, &t);
     char suffix[SUFFIX_BYTES];
     const char *path;
 

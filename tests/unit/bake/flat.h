@@ -86,26 +86,9 @@ typedef struct flat_levels
 static inline void
 flat_take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 {
-    const otx_image *image = &((flat_levels *)user)->levels[block->level];
-    const int32_t left = block->x * OTX_MIP_BLOCK;
-    const int32_t top = block->y * OTX_MIP_BLOCK;
-
     (void)slot;
     (void)lane;
-
-    for (int32_t j = 0; j < OTX_MIP_BLOCK && top + j < image->height; ++j)
-        for (int32_t i = 0; i < OTX_MIP_BLOCK && left + i < image->width; ++i)
-        {
-            const int32_t high = image->height - top < OTX_MIP_BLOCK
-                                     ? image->height - top
-                                     : OTX_MIP_BLOCK;
-
-            memcpy(
-                otx_image_at(image, left + i, image->height - 1 - top - j),
-                block->pixels + (high - 1 - j) * block->stride +
-                    i * image->channels,
-                (size_t)image->channels * sizeof *block->pixels);
-        }
+    otx_bake_copy(block, &((flat_levels *)user)->levels[block->level]);
 }
 
 static inline otx_status
@@ -119,13 +102,19 @@ flat_put(void *user, int32_t slot, int32_t level, int32_t x, int32_t y)
     return OSDTEX_OK;
 }
 
+static inline otx_bake_sink
+flat_sink(flat_levels *out)
+{
+    return (otx_bake_sink){.take = flat_take, .put = flat_put, .user = out};
+}
+
 static inline flat_levels
 flat_bake(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
     const otx_layout *layout, const otx_bake_options *options, int32_t tile)
 {
     flat_levels out = {otx_pyramid_count(layout->side, layout->side), {{0}}};
-    const otx_bake_sink sink = {flat_take, flat_put, &out};
+    const otx_bake_sink sink = flat_sink(&out);
     otx_bake bake;
 
     assert_int_equal(

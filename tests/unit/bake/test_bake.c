@@ -541,7 +541,7 @@ it_can_be_stopped_anywhere(void **state)
         const otx_layout layout =
             flat_layout(run, mapping, OTX_LAYOUT_ATLAS, 128, 4);
         flat_levels out = {otx_pyramid_count(128, 128), {{0}}};
-        const otx_bake_sink sink = {flat_take, flat_put, &out};
+        const otx_bake_sink sink = flat_sink(&out);
         int32_t left = calls;
         otx_bake bake;
 
@@ -564,7 +564,7 @@ lay_out_and_bake(
 {
     const otx_layout_options where = {OTX_LAYOUT_ATLAS, 128, 4, 0.0};
     const otx_bake_options options = {OTX_TEXEL_COLOR, 4.0};
-    const otx_bake_sink sink = {flat_take, flat_put, out};
+    const otx_bake_sink sink = flat_sink(out);
     otx_layout layout;
     otx_bake bake;
 
