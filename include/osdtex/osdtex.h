@@ -12,6 +12,7 @@
  *                            exemplar for every face (mapping.h)
  *     osdtex_mapping_write   OBJ + MTL + EXR that load in the DCC (mapping.h)
  *     osdtex_bake            the cage with textures on its UVs (bake.h)
+ *     osdtex_textures_create the same textures in memory (textures.h)
  *     osdtex_render          a picture of the result (render.h)
  *
  * and beside it memory, threads and findings (context.h), the refined surface
@@ -59,6 +60,7 @@
 #include <osdtex/preflight.h>
 #include <osdtex/render.h>
 #include <osdtex/surface.h>
+#include <osdtex/textures.h>
 #include <osdtex/tiles.h>
 #include <osdtex/version.h>
 

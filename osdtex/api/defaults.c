@@ -27,6 +27,7 @@ give(void *out, size_t bytes, const void *ours, size_t our_bytes)
     }
 
 DEFINE_INIT(osdtex_bake_options, osdtex_bake_options_default)
+DEFINE_INIT(osdtex_bake_sink, osdtex_bake_sink_none)
 DEFINE_INIT(osdtex_cage_options, osdtex_cage_options_default)
 DEFINE_INIT(osdtex_cage_arrays, osdtex_cage_arrays_none)
 DEFINE_INIT(osdtex_context_options, osdtex_context_options_default)

@@ -414,6 +414,23 @@ find_tiles(otx_run *run, otx_layout *out)
 }
 
 otx_status
+otx_layout_find_tile(
+    otx_run *run, const otx_layout *layout, int32_t udim, int32_t *tile)
+{
+    for (int32_t t = 0; t < layout->tile_count; ++t)
+        if (layout->tiles[t] == udim)
+        {
+            *tile = t;
+            return OSDTEX_OK;
+        }
+    return otx_fail(
+        run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+        "the bake has no tile %d; its %d tiles begin with %d", (int)udim,
+        (int)layout->tile_count,
+        layout->tile_count > 0 ? (int)layout->tiles[0] : 0);
+}
+
+otx_status
 otx_layout_build(
     otx_run *run, const otx_mapping *mapping, const otx_layout_options *options,
     otx_layout *out)

@@ -54,6 +54,11 @@ otx_status otx_layout_build(
     otx_run *run, const otx_mapping *mapping, const otx_layout_options *options,
     otx_layout *out);
 
+/* The index of the tile with a UDIM number. ARGUMENT, naming those that there
+ * are, when it has none. */
+otx_status otx_layout_find_tile(
+    otx_run *run, const otx_layout *layout, int32_t udim, int32_t *tile);
+
 /* The face across edge k of a face, where it has a texture, too; -1 none. */
 static inline int32_t
 otx_layout_across(const otx_layout *layout, int32_t face, int32_t k)

@@ -468,22 +468,6 @@ write_mtlx(const writer *w)
 }
 
 static otx_status
-check_udim(const writer *w)
-{
-    const otx_layout *layout = w->layout;
-
-    for (int32_t tile = 0; tile < layout->tile_count; ++tile)
-        if (w->options->udim == 0 || layout->tiles[tile] == w->options->udim)
-            return OSDTEX_OK;
-    return otx_fail(
-        w->run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
-        "the bake has no tile %" PRId32 "; its %" PRId32
-        " tiles begin with %" PRId32,
-        w->options->udim, layout->tile_count,
-        layout->tile_count > 0 ? layout->tiles[0] : 0);
-}
-
-static otx_status
 write_mesh(const writer *w)
 {
     otx_model_options options;
@@ -544,7 +528,11 @@ write_texts(const writer *w)
 static otx_status
 write_files(const writer *w)
 {
-    OTX_TRY(check_udim(w));
+    int32_t tile;
+
+    if (w->options->udim != 0)
+        OTX_TRY(
+            otx_layout_find_tile(w->run, w->layout, w->options->udim, &tile));
     say_tiles(w);
     OTX_TRY(write_kind(w, OTX_TEXEL_COLOR));
     for (int32_t kind = 1; kind < OTX_TEXEL_KIND_COUNT; ++kind)

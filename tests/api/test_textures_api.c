@@ -1,0 +1,611 @@
+/* test_textures_api.c -- a bake in memory is the bake in the files, in one
+ * piece or in blocks, and what cannot be baked is refused. */
+#include "meter.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum
+{
+    TEXTURES = 6,
+    LEVELS = 7, /* 96 48 24 12 6 3 1 */
+    SIDE = 96   /* more than a block, and no whole number of them */
+};
+
+typedef struct scene
+{
+    osdtex_context *context;
+    osdtex_mapping *mapping;
+    osdtex_textures *textures;
+} scene;
+
+static const uint32_t ALL = OSDTEX_BAKE_PATCH | OSDTEX_BAKE_UV |
+                            OSDTEX_BAKE_STRETCH | OSDTEX_BAKE_SEAM |
+                            OSDTEX_BAKE_SOURCE;
+
+static osdtex_bake_options
+small_bake(void)
+{
+    osdtex_bake_options options = osdtex_bake_options_default();
+
+    options.resolution = SIDE;
+    options.uvs = OSDTEX_BAKE_UVS_ATLAS;
+    options.margin = 4;
+    options.extras = ALL;
+    return options;
+}
+
+static osdtex_status
+map_small(osdtex_context *context, osdtex_mapping **out)
+{
+    osdtex_map_options map = osdtex_map_options_default();
+    osdtex_exemplar *exemplar = NULL;
+    osdtex_cage *cage = NULL;
+    osdtex_status status =
+        osdtex_cage_read(context, "models/cages/plane.obj", NULL, &cage);
+
+    map.level = 1;
+    map.scale = 4.0;
+    if (status == OSDTEX_OK)
+        status = osdtex_exemplar_read(
+            context, "models/exemplars/gravel_tile.png", NULL, &exemplar);
+    if (status == OSDTEX_OK)
+        status = osdtex_map(context, cage, exemplar, &map, out);
+    osdtex_exemplar_destroy(exemplar);
+    osdtex_cage_destroy(cage);
+    return status;
+}
+
+/* Maps for all tests: a mapping may be used with any context. */
+static int
+map_once(void **state)
+{
+    osdtex_mapping *mapping = NULL;
+    osdtex_context *context;
+
+    if (osdtex_context_create(NULL, &context) != OSDTEX_OK ||
+        map_small(context, &mapping) != OSDTEX_OK)
+        return 1;
+    osdtex_context_destroy(context);
+    *state = mapping;
+    return 0;
+}
+
+static int
+forget(void **state)
+{
+    osdtex_mapping_destroy(*state);
+    return 0;
+}
+
+static void
+open_scene(
+    void **state, scene *s, const osdtex_bake_options *options, int32_t threads)
+{
+    osdtex_context_options how = osdtex_context_options_default();
+
+    how.threads = threads;
+    s->mapping = *state;
+    assert_int_equal(osdtex_context_create(&how, &s->context), OSDTEX_OK);
+    if (osdtex_textures_create(s->context, s->mapping, options, &s->textures) !=
+        OSDTEX_OK)
+        fail_msg("%s", osdtex_context_error(s->context)->message);
+}
+
+static void
+close_scene(scene *s)
+{
+    osdtex_textures_destroy(s->textures);
+    osdtex_context_destroy(s->context);
+}
+
+static osdtex_image *
+image_of(const scene *s, int32_t texture, int32_t tile, int32_t level)
+{
+    const osdtex_texture_part part = {texture, tile, level};
+    osdtex_image *image;
+
+    assert_int_equal(
+        osdtex_textures_image(s->context, s->textures, &part, &image),
+        OSDTEX_OK);
+    return image;
+}
+
+static size_t
+values_of(const osdtex_image_info *info)
+{
+    return (size_t)info->width * (size_t)info->height * (size_t)info->channels;
+}
+
+/* ---- what there is ------------------------------------------------------- */
+
+static void
+a_handle_says_what_it_will_bake(void **state)
+{
+    static const char *const names[] = {
+        "color", "patch", "uv", "stretch", "seam", "source"};
+    const osdtex_bake_options options = small_bake();
+    const osdtex_textures_info *info;
+    scene s;
+
+    open_scene(state, &s, &options, 2);
+    info = osdtex_textures_describe(s.textures);
+    assert_int_equal(info->texture_count, TEXTURES);
+    assert_int_equal(info->side, SIDE);
+    assert_int_equal(info->level_count, LEVELS);
+    assert_int_equal(info->tile_count, 1);
+    assert_int_equal(info->tiles[0], 1001);
+    assert_int_equal(info->uvs, OSDTEX_BAKE_UVS_ATLAS);
+    assert_int_equal(info->fvar, OSDTEX_FVAR_ALL);
+    for (int32_t i = 0; i < TEXTURES; ++i)
+    {
+        const osdtex_texture_info *one = osdtex_texture_describe(s.textures, i);
+
+        assert_string_equal(one->name, names[i]);
+        assert_int_equal(one->channels, i == 5 ? 4 : 3);
+        assert_true((one->color_space != NULL) == (i == 0));
+        assert_true(strlen(one->summary) > 10);
+    }
+    assert_null(osdtex_texture_describe(s.textures, TEXTURES));
+    assert_null(osdtex_texture_describe(s.textures, -1));
+    close_scene(&s);
+}
+
+/* Every corner of the cage has coordinates, in a tile that is there. */
+static void
+coordinates_lie_on_the_tiles(void **state)
+{
+    osdtex_bake_options options = small_bake();
+    const osdtex_textures_info *info;
+    scene s;
+
+    options.texels_per_unit = 60.0;
+    open_scene(state, &s, &options, 2);
+    info = osdtex_textures_describe(s.textures);
+    assert_true(info->tile_count > 1);
+    for (int32_t c = 0; c < info->corner_count; ++c)
+    {
+        const float *uv = info->cage_uvs + 2 * (size_t)info->face_uvs[c];
+        const int32_t udim =
+            1001 + (int32_t)floorf(uv[0]) + 10 * (int32_t)floorf(uv[1]);
+        bool found = false;
+
+        for (int32_t t = 0; t < info->tile_count; ++t)
+            found |= info->tiles[t] == udim;
+        assert_true(found);
+    }
+    close_scene(&s);
+}
+
+static void
+one_tile_is_that_of_all(void **state)
+{
+    osdtex_bake_options options = small_bake();
+    osdtex_image *a, *b;
+    scene all, one;
+
+    options.texels_per_unit = 60.0;
+    open_scene(state, &all, &options, 2);
+    options.udim = osdtex_textures_describe(all.textures)->tiles[1];
+    open_scene(state, &one, &options, 2);
+    assert_int_equal(osdtex_textures_describe(one.textures)->tile_count, 1);
+    assert_int_equal(
+        osdtex_textures_describe(one.textures)->tiles[0], options.udim);
+    a = image_of(&all, 0, 1, 0);
+    b = image_of(&one, 0, 0, 0);
+    assert_memory_equal(
+        osdtex_image_describe(a)->pixels, osdtex_image_describe(b)->pixels,
+        values_of(osdtex_image_describe(a)) * sizeof(float));
+    osdtex_image_destroy(a);
+    osdtex_image_destroy(b);
+    close_scene(&all);
+    close_scene(&one);
+}
+
+/* ---- the same texels ----------------------------------------------------- */
+
+/* What a file holds of a value. */
+static float
+tolerance_of(int32_t texture, float value)
+{
+    return texture == 0 ? fabsf(value) / 1024.0f + 1e-6f : 0.0f;
+}
+
+static void
+assert_file_holds(
+    const scene *s, const char *path, int32_t texture,
+    const osdtex_image *image)
+{
+    const osdtex_image_info *ours = osdtex_image_describe(image), *theirs;
+    osdtex_image *read;
+
+    assert_int_equal(osdtex_image_read(s->context, path, &read), OSDTEX_OK);
+    theirs = osdtex_image_describe(read);
+    assert_int_equal(theirs->width, ours->width);
+    assert_int_equal(theirs->channels, ours->channels);
+    for (size_t i = 0; i < values_of(ours); ++i)
+        if (fabsf(ours->pixels[i] - theirs->pixels[i]) >
+            tolerance_of(texture, ours->pixels[i]))
+            fail_msg(
+                "%s: value %zu is %g, in memory %g", path, i,
+                (double)theirs->pixels[i], (double)ours->pixels[i]);
+    osdtex_image_destroy(read);
+}
+
+static void
+memory_holds_what_files_hold(void **state)
+{
+    const osdtex_bake_options options = small_bake();
+    char folder[] = "/tmp/osdtex_texturesXXXXXX", path[128], command[64];
+    scene s;
+
+    assert_non_null(mkdtemp(folder));
+    open_scene(state, &s, &options, 2);
+    snprintf(path, sizeof path, "%s/a.obj", folder);
+    assert_int_equal(
+        osdtex_bake(s.context, s.mapping, path, &options), OSDTEX_OK);
+    for (int32_t i = 0; i < TEXTURES; ++i)
+    {
+        osdtex_image *image = image_of(&s, i, 0, 0);
+
+        snprintf(
+            path, sizeof path, "%s/a%s%s.1001.exr", folder, i > 0 ? "_" : "",
+            i > 0 ? osdtex_texture_describe(s.textures, i)->name : "");
+        assert_file_holds(&s, path, i, image);
+        osdtex_image_destroy(image);
+    }
+    close_scene(&s);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
+static void
+arrays_hold_what_images_hold(void **state)
+{
+    const osdtex_bake_options options = small_bake();
+    scene s;
+
+    open_scene(state, &s, &options, 3);
+    for (int32_t level = 0; level < LEVELS; ++level)
+    {
+        const osdtex_texture_part part = {level % TEXTURES, 0, level};
+        osdtex_image *image = image_of(&s, part.texture, 0, level);
+        const osdtex_image_info *info = osdtex_image_describe(image);
+        const size_t count = values_of(info);
+        float *pixels = calloc(count + 1, sizeof *pixels);
+
+        assert_int_equal(info->width, SIDE >> level > 1 ? SIDE >> level : 1);
+        pixels[count] = 7.0f;
+        assert_int_equal(
+            osdtex_textures_read(s.context, s.textures, &part, pixels, count),
+            OSDTEX_OK);
+        assert_memory_equal(pixels, info->pixels, count * sizeof *pixels);
+        assert_true(pixels[count] == 7.0f);
+        assert_int_equal(
+            osdtex_textures_read(
+                s.context, s.textures, &part, pixels, count - 1),
+            OSDTEX_ERROR_ARGUMENT);
+        free(pixels);
+        osdtex_image_destroy(image);
+    }
+    close_scene(&s);
+}
+
+/* What a sink has been given. */
+typedef struct taken
+{
+    pthread_t thread;
+    int32_t count;
+    int32_t stop_at; /* block at which it has enough; -1 never */
+    osdtex_bake_block last;
+    float *levels[TEXTURES][LEVELS]; /* of each texture */
+} taken;
+
+/* Whether `b` may come after `a`. */
+static bool
+is_in_order(const osdtex_bake_block *a, const osdtex_bake_block *b)
+{
+    if (a->texture != b->texture)
+        return b->texture == a->texture + 1;
+    if (a->level != b->level)
+        return b->level == a->level + 1;
+    return b->y < a->y || (b->y == a->y && b->x == a->x + a->width);
+}
+
+static bool
+take(void *user, const osdtex_bake_block *block)
+{
+    taken *t = user;
+    float *to = t->levels[block->texture][block->level];
+
+    assert_true(pthread_equal(t->thread, pthread_self()));
+    assert_true(t->count == 0 || is_in_order(&t->last, block));
+    assert_int_equal(block->udim, 1001);
+    assert_true(block->x >= 0 && block->x + block->width <= block->side);
+    assert_true(block->y >= 0 && block->y + block->height <= block->side);
+    for (int32_t y = 0; to && y < block->height; ++y)
+    {
+        const size_t row = (size_t)block->width * (size_t)block->channels;
+
+        memcpy(
+            to + ((size_t)(block->y + y) * (size_t)block->side +
+                  (size_t)block->x) *
+                     (size_t)block->channels,
+            block->pixels + (size_t)y * row, row * sizeof *to);
+    }
+    t->last = *block;
+    return t->count++ != t->stop_at;
+}
+
+static osdtex_bake_sink
+sink_for(taken *t)
+{
+    osdtex_bake_sink sink = osdtex_bake_sink_none();
+
+    *t = (taken){.thread = pthread_self(), .stop_at = -1};
+    sink.put = take;
+    sink.user = t;
+    return sink;
+}
+
+static void
+blocks_make_up_the_images(void **state)
+{
+    const osdtex_bake_options options = small_bake();
+    osdtex_bake_sink sink;
+    taken t;
+    scene s;
+
+    open_scene(state, &s, &options, 3);
+    sink = sink_for(&t);
+    sink.level_count = 0;
+    for (int i = 0; i < TEXTURES * LEVELS; ++i)
+        t.levels[i / LEVELS][i % LEVELS] =
+            calloc(SIDE * SIDE * 4, sizeof(float));
+    assert_int_equal(
+        osdtex_textures_bake(s.context, s.textures, &sink), OSDTEX_OK);
+    assert_int_equal(t.count, TEXTURES * (4 + LEVELS - 1));
+    for (int i = 0; i < TEXTURES * LEVELS; ++i)
+    {
+        osdtex_image *image = image_of(&s, i / LEVELS, 0, i % LEVELS);
+        const osdtex_image_info *info = osdtex_image_describe(image);
+
+        assert_memory_equal(
+            t.levels[i / LEVELS][i % LEVELS], info->pixels,
+            values_of(info) * sizeof(float));
+        osdtex_image_destroy(image);
+        free(t.levels[i / LEVELS][i % LEVELS]);
+    }
+    close_scene(&s);
+}
+
+static void
+a_sink_gets_what_it_asks_for(void **state)
+{
+    const osdtex_bake_options options = small_bake();
+    osdtex_bake_sink sink;
+    taken t;
+    scene s;
+
+    open_scene(state, &s, &options, 1);
+    sink = sink_for(&t);
+    sink.texture = 3;
+    sink.tile = 0;
+    sink.first_level = 2;
+    sink.level_count = 2;
+    assert_int_equal(
+        osdtex_textures_bake(s.context, s.textures, &sink), OSDTEX_OK);
+    assert_int_equal(t.count, 2);
+    assert_string_equal(t.last.name, "stretch");
+    assert_int_equal(t.last.level, 3);
+    assert_int_equal(t.last.side, SIDE / 8);
+    close_scene(&s);
+}
+
+static void
+a_sink_may_have_enough(void **state)
+{
+    const osdtex_bake_options options = small_bake();
+    osdtex_bake_sink sink;
+    taken t;
+    scene s;
+
+    open_scene(state, &s, &options, 2);
+    for (int32_t stop = 0; stop < 5; ++stop)
+    {
+        sink = sink_for(&t);
+        t.stop_at = stop;
+        assert_int_equal(
+            osdtex_textures_bake(s.context, s.textures, &sink),
+            OSDTEX_ERROR_CANCELLED);
+        assert_int_equal(t.count, stop + 1);
+    }
+    close_scene(&s);
+}
+
+static void
+threads_make_no_difference(void **state)
+{
+    osdtex_bake_options options = small_bake();
+    osdtex_image *first = NULL;
+    scene kept;
+
+    options.seam_blend = 4.0;
+    open_scene(state, &kept, &options, 1);
+    first = image_of(&kept, 0, 0, 0);
+    for (int32_t threads = 2; threads <= 8; threads *= 2)
+    {
+        osdtex_image *other;
+        scene s;
+
+        open_scene(state, &s, &options, threads);
+        other = image_of(&s, 0, 0, 0);
+        assert_memory_equal(
+            osdtex_image_describe(first)->pixels,
+            osdtex_image_describe(other)->pixels,
+            values_of(osdtex_image_describe(first)) * sizeof(float));
+        osdtex_image_destroy(other);
+        close_scene(&s);
+    }
+    osdtex_image_destroy(first);
+    close_scene(&kept);
+}
+
+static void
+a_handle_keeps_its_mapping(void **state)
+{
+    const osdtex_bake_options options = small_bake();
+    osdtex_image *image, *wanted;
+    osdtex_mapping *mapping = NULL;
+    scene s;
+
+    open_scene(state, &s, &options, 2);
+    wanted = image_of(&s, 0, 0, 1);
+    osdtex_textures_destroy(s.textures);
+    assert_int_equal(map_small(s.context, &mapping), OSDTEX_OK);
+    assert_int_equal(
+        osdtex_textures_create(s.context, mapping, &options, &s.textures),
+        OSDTEX_OK);
+    osdtex_mapping_destroy(mapping);
+    image = image_of(&s, 0, 0, 1);
+    assert_memory_equal(
+        osdtex_image_describe(image)->pixels,
+        osdtex_image_describe(wanted)->pixels,
+        values_of(osdtex_image_describe(wanted)) * sizeof(float));
+    osdtex_image_destroy(image);
+    osdtex_image_destroy(wanted);
+    close_scene(&s);
+}
+
+/* ---- what is refused ----------------------------------------------------- */
+
+static void
+what_is_not_there_is_refused(void **state)
+{
+    static const osdtex_texture_part parts[] = {{-1, 0, 0}, {TEXTURES, 0, 0},
+                                                {0, -1, 0}, {0, 1, 0},
+                                                {0, 0, -1}, {0, 0, LEVELS}};
+    const osdtex_status wrong = OSDTEX_ERROR_ARGUMENT;
+    osdtex_bake_options options = small_bake();
+    osdtex_textures *none = (osdtex_textures *)1;
+    osdtex_image *image = (osdtex_image *)1;
+    osdtex_bake_sink sink;
+    taken t;
+    scene s;
+
+    open_scene(state, &s, &options, 1);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i)
+    {
+        assert_int_equal(
+            osdtex_textures_image(s.context, s.textures, &parts[i], &image),
+            wrong);
+        assert_null(image);
+    }
+    assert_int_equal(
+        osdtex_textures_image(s.context, NULL, &parts[0], &image), wrong);
+    assert_int_equal(
+        osdtex_textures_image(s.context, s.textures, NULL, &image), wrong);
+    assert_int_equal(
+        osdtex_textures_read(
+            s.context, s.textures, &(osdtex_texture_part){0, 0, 0}, NULL,
+            1000000),
+        wrong);
+    sink = sink_for(&t);
+    sink.put = NULL;
+    assert_int_equal(osdtex_textures_bake(s.context, s.textures, &sink), wrong);
+    assert_int_equal(osdtex_textures_bake(s.context, s.textures, NULL), wrong);
+    sink = sink_for(&t);
+    sink.first_level = LEVELS;
+    assert_int_equal(osdtex_textures_bake(s.context, s.textures, &sink), wrong);
+    options.udim = 1099;
+    assert_int_equal(
+        osdtex_textures_create(s.context, s.mapping, &options, &none), wrong);
+    assert_null(none);
+    assert_non_null(
+        strstr(osdtex_context_error(s.context)->message, "no tile 1099"));
+    assert_int_equal(
+        osdtex_textures_create(s.context, NULL, NULL, &none), wrong);
+    assert_int_equal(
+        osdtex_textures_create(NULL, s.mapping, NULL, &none), wrong);
+    assert_null(osdtex_textures_describe(NULL));
+    osdtex_textures_destroy(NULL);
+    close_scene(&s);
+}
+
+static bool
+take_any(void *user, const osdtex_bake_block *block)
+{
+    (void)user;
+    return block->pixels != NULL;
+}
+
+static osdtex_status
+bake_in_all_ways(osdtex_context *context)
+{
+    osdtex_bake_options options = small_bake();
+    const osdtex_texture_part part = {0, 0, 1};
+    osdtex_bake_sink sink = osdtex_bake_sink_none();
+    osdtex_mapping *mapping = NULL;
+    osdtex_textures *textures = NULL;
+    osdtex_image *image = NULL;
+    osdtex_status status = map_small(context, &mapping);
+
+    options.extras = OSDTEX_BAKE_SEAM;
+    options.resolution = 32;
+    sink.put = take_any;
+    sink.first_level = 1;
+    if (status == OSDTEX_OK)
+        status = osdtex_textures_create(context, mapping, &options, &textures);
+    if (status == OSDTEX_OK)
+        status = osdtex_textures_image(context, textures, &part, &image);
+    if (status == OSDTEX_OK)
+        status = osdtex_textures_bake(context, textures, &sink);
+    osdtex_image_destroy(image);
+    osdtex_textures_destroy(textures);
+    osdtex_mapping_destroy(mapping);
+    return status;
+}
+
+static void
+failing_allocations_leak_nothing(void **state)
+{
+    const moments at = {1, 2};
+
+    (void)state;
+    fail_at_moments(&at, bake_in_all_ways);
+}
+
+static void
+cancelling_leaks_nothing(void **state)
+{
+    const moments at = {2, 4};
+
+    (void)state;
+    cancel_at_moments(&at, bake_in_all_ways);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_handle_says_what_it_will_bake),
+        cmocka_unit_test(coordinates_lie_on_the_tiles),
+        cmocka_unit_test(one_tile_is_that_of_all),
+        cmocka_unit_test(memory_holds_what_files_hold),
+        cmocka_unit_test(arrays_hold_what_images_hold),
+        cmocka_unit_test(blocks_make_up_the_images),
+        cmocka_unit_test(a_sink_gets_what_it_asks_for),
+        cmocka_unit_test(a_sink_may_have_enough),
+        cmocka_unit_test(threads_make_no_difference),
+        cmocka_unit_test(a_handle_keeps_its_mapping),
+        cmocka_unit_test(what_is_not_there_is_refused),
+        cmocka_unit_test(failing_allocations_leak_nothing),
+        cmocka_unit_test(cancelling_leaks_nothing),
+    };
+
+    return cmocka_run_group_tests(tests, map_once, forget);
+}
