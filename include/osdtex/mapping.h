@@ -195,7 +195,9 @@ typedef struct osdtex_mapping_read_options
     /* Of what is written; NULL and ANY: as of the mapping. */
     const char *to;
     osdtex_receiver receiver;
-    int32_t reserved;
+    int32_t without_figures; /* 1: to be baked, written and drawn, not to be
+                              * measured by osdtex_report_write(): of large
+                              * exemplars that is read much sooner */
 } osdtex_mapping_read_options;
 
 static inline osdtex_mapping_read_options
@@ -224,6 +226,21 @@ OSDTEX_API osdtex_status osdtex_mapping_read(
 OSDTEX_API osdtex_status osdtex_mapping_inspect(
     osdtex_context *context, const char *path,
     void (*visit)(void *user, const char *about), void *user);
+/* What a file that a saved mapping names is. */
+typedef int32_t osdtex_saved_file;
+enum
+{
+    OSDTEX_SAVED_CAGE = 0,
+    OSDTEX_SAVED_EXEMPLAR = 1
+};
+
+/* Calls `visit` with the files that osdtex_mapping_read() would read for this
+ * saved mapping, by the paths where they are found: the cage, then the
+ * exemplars in their order. FORMAT, SUPPORT, IO, MEMORY. */
+OSDTEX_API osdtex_status osdtex_mapping_files(
+    osdtex_context *context, const char *path,
+    void (*visit)(void *user, osdtex_saved_file file, const char *path),
+    void *user);
 OSDTEX_API void osdtex_mapping_destroy(osdtex_mapping *mapping);
 
 OSDTEX_END_DECLS

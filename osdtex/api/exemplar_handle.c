@@ -329,9 +329,9 @@ keep_tiles(
 static otx_status
 read_exemplar(
     otx_call *call, const char *path, const osdtex_exemplar_options *options,
-    const otx_exemplar_cuts *cuts, osdtex_exemplar **out)
+    const otx_exemplar_cuts *cuts, bool linear_only, osdtex_exemplar **out)
 {
-    otx_exemplar_input input = {0};
+    otx_exemplar_input input = {.linear_only = linear_only};
     osdtex_exemplar_options ours;
     otx_picture picture;
     otx_run aside;
@@ -365,14 +365,14 @@ osdtex_exemplar_read(
     osdtex_context *context, const char *path,
     const osdtex_exemplar_options *options, osdtex_exemplar **out)
 {
-    return otx_exemplar_handle_read(context, path, options, NULL, out);
+    return otx_exemplar_handle_read(context, path, options, NULL, false, out);
 }
 
 osdtex_status
 otx_exemplar_handle_read(
     osdtex_context *context, const char *path,
     const osdtex_exemplar_options *options, const otx_exemplar_cuts *cuts,
-    osdtex_exemplar **out)
+    bool linear_only, osdtex_exemplar **out)
 {
     otx_call call;
 
@@ -381,7 +381,8 @@ otx_exemplar_handle_read(
     *out = NULL;
     OTX_TRY(otx_call_begin(context, "exemplar", &call));
     return otx_call_end(
-        &call, read_exemplar(&call, path, options, cuts, out), out);
+        &call, read_exemplar(&call, path, options, cuts, linear_only, out),
+        out);
 }
 
 static otx_status

@@ -196,12 +196,13 @@ damaged(const loader *l, const char *what)
         "the saved mapping is damaged: %s", what);
 }
 
-/* A file that the mapping names: where it says, else beside the mapping. */
+/* A file that the mapping at `path` names: where it says, else beside the
+ * mapping. */
 static otx_status
-find_file(const loader *l, const char *named, const char **out)
+find_file(otx_run *run, const char *path, const char *named, const char **out)
 {
-    const char *slash = strrchr(l->path, '/'), *last = strrchr(named, '/');
-    const int folder = slash ? (int)(slash + 1 - l->path) : 0;
+    const char *slash = strrchr(path, '/'), *last = strrchr(named, '/');
+    const int folder = slash ? (int)(slash + 1 - path) : 0;
     char beside[PATH_MAX];
 
     *out = named;
@@ -211,12 +212,12 @@ find_file(const loader *l, const char *named, const char **out)
     {
         const char *name = i == 0 || !last ? named : last + 1;
 
-        if (snprintf(beside, sizeof beside, "%.*s%s", folder, l->path, name) <
+        if (snprintf(beside, sizeof beside, "%.*s%s", folder, path, name) <
                 (int)sizeof beside &&
             access(beside, F_OK) == 0)
         {
-            *out = otx_arena_strdup(l->call->run.arena, beside);
-            return otx_run_ok(&l->call->run);
+            *out = otx_arena_strdup(run->arena, beside);
+            return otx_run_ok(run);
         }
     }
     return OSDTEX_OK;
@@ -248,7 +249,7 @@ read_cage(loader *l)
     const char *path = l->options.cage, *topology;
 
     if (!path)
-        OTX_TRY(find_file(l, l->about.cage_path, &path));
+        OTX_TRY(find_file(&l->call->run, l->path, l->about.cage_path, &path));
     OTX_TRY(osdtex_cage_read(context, path, &l->about.cage, &l->cage));
     OTX_TRY(otx_saved_topology(&l->call->run, &l->cage->cage, &topology));
     if (strcmp(topology, l->about.topology) != 0)
@@ -282,7 +283,7 @@ read_exemplar(loader *l, int32_t k)
     char name[OTX_TENSOR_NAME_BYTES];
 
     if (!path)
-        OTX_TRY(find_file(l, s->path, &path));
+        OTX_TRY(find_file(&l->call->run, l->path, s->path, &path));
     snprintf(name, sizeof name, "exemplar_texels_%d", (int)k);
     texels = otx_tensors_find(
         l->tensors, name, OTX_TENSOR_I32,
@@ -302,7 +303,8 @@ read_exemplar(loader *l, int32_t k)
         s->options.receiver = l->options.receiver;
     }
     OTX_TRY(otx_exemplar_handle_read(
-        l->call->context, path, &s->options, &s->cuts, &l->exemplars[k]));
+        l->call->context, path, &s->options, &s->cuts,
+        l->options.without_figures != 0, &l->exemplars[k]));
     if (!swapped && s->hash && l->exemplars[k]->exemplar.source_hash &&
         strcmp(s->hash, l->exemplars[k]->exemplar.source_hash) != 0)
         otx_note(
@@ -546,22 +548,41 @@ osdtex_mapping_read(
     return otx_call_end(&call, read_mapping(&call, path, options, out), out);
 }
 
+/* What a saved mapping says of itself, as text and taken apart; both live in
+ * the scratch arena. */
+static otx_status
+read_about(
+    otx_run *run, const char *path, const char **text, otx_saved_about **out)
+{
+    otx_tensors *tensors = OTX_ZNEW(run->scratch, otx_tensors, 1);
+
+    *out = OTX_ZNEW(run->scratch, otx_saved_about, 1);
+    OTX_TRY(otx_run_ok(run));
+    OTX_TRY(otx_tensors_read(run, path, tensors));
+    *text = tensors->about;
+    return otx_saved_about_parse(run, path, tensors->about, *out);
+}
+
+static otx_status
+check_visit(otx_run *run, bool given)
+{
+    return given ? OSDTEX_OK
+                 : otx_fail(
+                       run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+                       "no path or nobody to tell is given");
+}
+
 static otx_status
 inspect(
     otx_run *run, const char *path,
     void (*visit)(void *user, const char *about), void *user)
 {
-    otx_tensors *tensors = OTX_ZNEW(run->scratch, otx_tensors, 1);
-    otx_saved_about *about = OTX_ZNEW(run->scratch, otx_saved_about, 1);
+    otx_saved_about *about;
+    const char *text;
 
-    if (!path || !visit)
-        return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
-            "no path or nobody to tell is given");
-    OTX_TRY(otx_run_ok(run));
-    OTX_TRY(otx_tensors_read(run, path, tensors));
-    OTX_TRY(otx_saved_about_parse(run, path, tensors->about, about));
-    visit(user, tensors->about);
+    OTX_TRY(check_visit(run, path && visit));
+    OTX_TRY(read_about(run, path, &text, &about));
+    visit(user, text);
     return OSDTEX_OK;
 }
 
@@ -574,4 +595,37 @@ osdtex_mapping_inspect(
 
     OTX_TRY(otx_call_begin(context, STAGE, &call));
     return otx_call_drop(&call, inspect(&call.run, path, visit, user));
+}
+
+static otx_status
+list_files(
+    otx_run *run, const char *path,
+    void (*visit)(void *user, osdtex_saved_file file, const char *path),
+    void *user)
+{
+    otx_saved_about *about;
+    const char *text, *found;
+
+    OTX_TRY(check_visit(run, path && visit));
+    OTX_TRY(read_about(run, path, &text, &about));
+    OTX_TRY(find_file(run, path, about->cage_path, &found));
+    visit(user, OSDTEX_SAVED_CAGE, found);
+    for (int32_t k = 0; k < about->exemplar_count; ++k)
+    {
+        OTX_TRY(find_file(run, path, about->exemplars[k].path, &found));
+        visit(user, OSDTEX_SAVED_EXEMPLAR, found);
+    }
+    return OSDTEX_OK;
+}
+
+osdtex_status
+osdtex_mapping_files(
+    osdtex_context *context, const char *path,
+    void (*visit)(void *user, osdtex_saved_file file, const char *path),
+    void *user)
+{
+    otx_call call;
+
+    OTX_TRY(otx_call_begin(context, STAGE, &call));
+    return otx_call_drop(&call, list_files(&call.run, path, visit, user));
 }

@@ -115,6 +115,7 @@ typedef struct otx_flag
 enum
 {
     OTX_FLAG_SETTINGS_MAX = 64,
+    OTX_FLAG_SAVED_MAX = 1 + OSDTEX_EXEMPLARS_MAX, /* files of --from */
     OTX_FLAG_SPOOLS_MAX = 8,
     OTX_FLAG_OPERANDS_MAX = 8,
     OTX_FLAG_EDGES_MAX = 8,
@@ -130,6 +131,16 @@ typedef struct otx_flag_spool
     size_t prefix;    /* bytes of both before the file's name */
 } otx_flag_spool;
 
+/* The files that a saved mapping names: its cage, then its exemplars, of which
+ * operands stand in the place of the first ones. See saved_files.h. */
+typedef struct otx_flag_saved
+{
+    char *files[OTX_FLAG_SAVED_MAX];
+    int count;
+    int exemplars;
+    bool out_of_memory;
+} otx_flag_saved;
+
 typedef struct otx_flag_values
 {
     const char *text[OTX_FLAG_COUNT]; /* NULL: not given; "" for switches */
@@ -141,7 +152,8 @@ typedef struct otx_flag_values
     int also_count;
     const char *operands[OTX_FLAG_OPERANDS_MAX];
     int operand_count;
-    const char *saved;      /* NAME.osdtex of --from; NULL none */
+    const char *saved; /* NAME.osdtex of --from; NULL none */
+    otx_flag_saved of_saved;
     const otx_flag_id *ids; /* the flags of the command */
     const char *job; /* file of the job that this is a task of; NULL none */
     otx_flag_spool spools[OTX_FLAG_SPOOLS_MAX];

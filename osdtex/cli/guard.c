@@ -3,7 +3,7 @@
 #include "cli/guard.h"
 
 #include "cli/also_flags.h"
-#include "cli/spool.h"
+#include "cli/saved_files.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -53,6 +53,10 @@ otx_guard_named(
             add_file(context, deep, out, otx_also_flags_file(values->also[i]));
     if (status == OSDTEX_OK)
         status = add_file(context, deep, out, values->saved);
+    /* Operands stand in the place of the first ones. */
+    for (int i = values->operand_count;
+         i < values->of_saved.count && status == OSDTEX_OK; ++i)
+        status = add_file(context, deep, out, values->of_saved.files[i]);
     return status;
 }
 
@@ -205,12 +209,13 @@ check_owners(const otx_flag_values *values, const otx_path_list *outputs)
 {
     const char *const named[] = {
         values->text[OTX_FLAG_PREVIEW], values->text[OTX_FLAG_JSON_REPORT]};
+    const char *from = otx_saved_files_source(values);
     char source[OSDTEX_SOURCE_BYTES];
     ownership o = {0};
 
-    if (values->text[OTX_FLAG_REPLACE] || values->operand_count == 0)
+    if (values->text[OTX_FLAG_REPLACE] || !from)
         return OSDTEX_OK;
-    osdtex_outputs_source(otx_spool_name(values, values->operands[0]), source);
+    osdtex_outputs_source(from, source);
     for (int i = 0; i < outputs->count; ++i)
     {
         const char *path = outputs->items[i].name;
@@ -269,5 +274,5 @@ otx_guard_check_flags(otx_session *session, const otx_flag_values *values)
     if (status != OSDTEX_OK)
         return status;
     return osdtex_outputs_mark(
-        session->context, NULL, otx_spool_name(values, values->operands[0]));
+        session->context, NULL, otx_saved_files_source(values));
 }

@@ -2,8 +2,8 @@
  * textured model out, or the cage with textures. */
 #include "cli/guard.h"
 #include "cli/map_request.h"
+#include "cli/saved_files.h"
 #include "cli/session.h"
-#include "cli/spool.h"
 #include "cli/up_to_date.h"
 
 #include <stdio.h>
@@ -11,6 +11,7 @@
 /* The job as the flags ask for it, and what has been made of it so far. */
 typedef struct job
 {
+    otx_flag_values values; /* with the files of the saved mapping */
     otx_map_request request;
     bool has_hash;
     char hash[OSDTEX_HASH_BYTES];
@@ -77,8 +78,13 @@ read_saved(otx_session *session, job *j)
     options.from = values->text[OTX_FLAG_FROM];
     options.to = j->request.exemplar_options.to;
     options.receiver = j->request.exemplar_options.receiver;
-    return osdtex_mapping_read(
+    options.without_figures = !j->request.report;
+
+    const osdtex_status status = osdtex_mapping_read(
         session->context, values->saved, &options, &j->mapping);
+
+    otx_session_lap(session, "inputs read");
+    return status;
 }
 
 /* Rendered before anything is written, so that what can go wrong in it leaves
@@ -162,7 +168,7 @@ say_outputs(const job *j)
     if (r->maps)
         printf(
             "into          %s, %s, %s%s\n", r->obj, r->mtl, r->exrs[0],
-            r->also.count > 0 ? " and so on" : "");
+            r->exr_count > 1 ? " and so on" : "");
     if (r->bakes && !r->values->saved)
         say_bake(j);
     if (r->bakes && r->values->saved)
@@ -224,7 +230,7 @@ say_done(otx_session *session, const job *j)
     if (r->maps)
         otx_session_say(
             session, "wrote %s, %s, %s%s: %d faces in %d patches, %.1f s",
-            r->obj, r->mtl, r->exrs[0], r->also.count > 0 ? " and so on" : "",
+            r->obj, r->mtl, r->exrs[0], r->exr_count > 1 ? " and so on" : "",
             mapping->face_count, mapping->patch_count,
             otx_session_seconds(session));
     if (r->bakes)
@@ -295,6 +301,7 @@ clean_up(job *j)
     otx_also_flags_destroy(&j->request.also);
     osdtex_exemplar_destroy(j->exemplar);
     osdtex_cage_destroy(j->cage);
+    otx_saved_files_free(&j->values);
 }
 
 static osdtex_status
@@ -317,7 +324,23 @@ mark_outputs(otx_session *session, job *j)
     j->has_hash = otx_up_to_date_job(session->context, values, j->hash);
     return osdtex_outputs_mark(
         session->context, j->has_hash ? j->hash : NULL,
-        otx_spool_name(values, values->operands[0]));
+        otx_saved_files_source(values));
+}
+
+/* Everything that can be wrong with the names of files. */
+static osdtex_status
+prepare(otx_session *session, job *j)
+{
+    osdtex_status status = otx_saved_files_take(session, &j->values);
+
+    if (status == OSDTEX_OK && j->values.saved &&
+        !otx_map_request_name(&j->request))
+        status = OSDTEX_ERROR_ARGUMENT;
+    if (status == OSDTEX_OK)
+        status = check_outputs(session, j);
+    if (status == OSDTEX_OK)
+        status = mark_outputs(session, j);
+    return status;
 }
 
 static int
@@ -325,26 +348,20 @@ run(const otx_flag_values *values, bool bake_only)
 {
     osdtex_status status;
     otx_session session;
-    job j = {0};
+    job j = {.values = *values};
 
-    if (!otx_map_request_parse(values, bake_only, &j.request))
+    if (!otx_map_request_parse(&j.values, bake_only, &j.request))
         return OTX_EXIT_USAGE;
     if (!otx_session_begin(&session, values))
         return session.exit_code;
-    status = check_outputs(&session, &j);
-    if (status == OSDTEX_OK)
-        status = mark_outputs(&session, &j);
-    if (status != OSDTEX_OK)
-        return otx_session_end(&session, status);
-    if (values->text[OTX_FLAG_UPDATE] && j.has_hash &&
+    status = prepare(&session, &j);
+    if (status == OSDTEX_OK && values->text[OTX_FLAG_UPDATE] && j.has_hash &&
         otx_map_request_is_done(&j.request, j.hash))
-    {
         otx_session_say(
             &session, "%s is up to date",
             j.request.maps ? j.request.obj : j.request.cage_obj);
-        return otx_session_end(&session, OSDTEX_OK);
-    }
-    status = texture(&session, &j);
+    else if (status == OSDTEX_OK)
+        status = texture(&session, &j);
     clean_up(&j);
     return otx_session_end(&session, status);
 }

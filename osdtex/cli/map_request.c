@@ -5,7 +5,7 @@
 #include "cli/bake_flags.h"
 #include "cli/bake_outputs.h"
 #include "cli/inputs.h"
-#include "cli/session.h"
+#include "cli/saved_files.h"
 #include "cli/up_to_date.h"
 #include "cli/value.h"
 
@@ -37,20 +37,24 @@ texture_extension(const otx_map_request *r)
 }
 
 /* NAME.exr, or of several exemplars NAME_1.exr and so on. */
-static bool
-name_textures(otx_map_request *r)
+bool
+otx_map_request_name(otx_map_request *r)
 {
     const char *extension = texture_extension(r);
     char suffix[32];
 
+    r->exr_count = r->values->saved ? otx_saved_files_exemplars(r->values)
+                                    : r->also.count + 1;
     snprintf(suffix, sizeof suffix, "%s", extension);
-
-    for (int k = 0; k <= r->also.count; ++k)
+    for (int k = 0; k < r->exr_count; ++k)
     {
-        if (r->also.count > 0)
+        if (r->exr_count > 1)
             snprintf(suffix, sizeof suffix, "_%d%s", k + 1, extension);
         if (!name_beside(r->mtl, suffix, r->exrs[k]))
+        {
+            otx_session_refuse("'%s' is too long a name", r->obj);
             return false;
+        }
     }
     return true;
 }
@@ -76,7 +80,9 @@ name_outputs(otx_map_request *r)
     name = strrchr(r->mtl, '/');
     osdtex_outputs_word(name ? name + 1 : r->mtl);
     memcpy(r->mtl + length - 4, ".mtl", 5);
-    if (name_textures(r) && name_beside(r->mtl, "_cage.obj", r->cage_obj) &&
+    if (!otx_map_request_name(r))
+        return false;
+    if (name_beside(r->mtl, "_cage.obj", r->cage_obj) &&
         name_beside(r->mtl, "_cage.mtl", r->cage_mtl))
         return true;
     otx_session_refuse("'%s' is too long a name", path);
@@ -304,7 +310,7 @@ otx_map_request_outputs(const otx_map_request *r, otx_path_list *out)
         otx_path_list_add(out, r->obj);
         otx_path_list_add(out, r->mtl);
     }
-    for (int k = 0; r->maps && k <= r->also.count; ++k)
+    for (int k = 0; r->maps && k < r->exr_count; ++k)
         otx_path_list_add(out, r->exrs[k]);
     if (r->bakes)
         otx_bake_outputs_list(r->cage_obj, &r->bake_options, out);
@@ -326,7 +332,7 @@ otx_map_request_is_done(
     for (int i = 0; i < 4; ++i)
         if (files[i] && !otx_up_to_date_check(files[i], hash))
             return false;
-    for (int k = 0; r->maps && k <= r->also.count; ++k)
+    for (int k = 0; r->maps && k < r->exr_count; ++k)
         if (!otx_up_to_date_check(r->exrs[k], hash))
             return false;
     return !r->bakes ||

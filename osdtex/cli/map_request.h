@@ -24,7 +24,8 @@ typedef struct otx_map_request
     osdtex_bake_options bake_options;
     bool maps, bakes; /* which files are asked for */
     char obj[OTX_MAP_PATH_BYTES], mtl[OTX_MAP_PATH_BYTES];
-    char exrs[OSDTEX_EXEMPLARS_MAX][OTX_MAP_PATH_BYTES]; /* "" none */
+    char exrs[OSDTEX_EXEMPLARS_MAX][OTX_MAP_PATH_BYTES];
+    int exr_count; /* 0 before a saved mapping has said */
     char cage_obj[OTX_MAP_PATH_BYTES], cage_mtl[OTX_MAP_PATH_BYTES];
     const char *preview, *report, *save; /* NULL none */
 } otx_map_request;
@@ -32,6 +33,10 @@ typedef struct otx_map_request
 /* False after saying what is wrong. Borrows the values. */
 bool otx_map_request_parse(
     const otx_flag_values *values, bool bake_only, otx_map_request *out);
+
+/* Names the textures, of which a saved mapping knows how many there are. False
+ * after saying what is wrong. */
+bool otx_map_request_name(otx_map_request *request);
 
 /* Adds the files that will be written. */
 void

@@ -5,6 +5,7 @@
 #include "cli/field_flags.h"
 #include "cli/guard.h"
 #include "cli/picture_flags.h"
+#include "cli/saved_files.h"
 #include "cli/session.h"
 #include "cli/value.h"
 
@@ -130,6 +131,7 @@ read_saved(osdtex_context *context, job *j)
     osdtex_status status;
 
     options.cage = j->path;
+    options.without_figures = 1;
     j->path = j->saved;
     status = osdtex_mapping_read(context, j->saved, &options, &j->mapping);
     return status == OSDTEX_OK
@@ -172,6 +174,7 @@ int
 otx_render_command_run(const otx_flag_values *values)
 {
     osdtex_status status;
+    otx_flag_values all = *values; /* with the files of the saved mapping */
     otx_session session;
     job j;
 
@@ -179,9 +182,12 @@ otx_render_command_run(const otx_flag_values *values)
         return OTX_EXIT_USAGE;
     if (!otx_session_begin(&session, values))
         return session.exit_code;
-    status = otx_guard_check_flags(&session, values);
+    status = otx_saved_files_take(&session, &all);
+    if (status == OSDTEX_OK)
+        status = otx_guard_check_flags(&session, &all);
     if (status == OSDTEX_OK)
         status = render(&session, &j);
     drop(&j);
+    otx_saved_files_free(&all);
     return otx_session_end(&session, status);
 }

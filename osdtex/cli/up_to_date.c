@@ -93,16 +93,14 @@ put_job(FILE *out, osdtex_context *context, const otx_flag_values *values)
 {
     char colour[OSDTEX_HASH_BYTES];
 
-    /* What a saved mapping names is not known here. */
-    if (values->saved)
-        return false;
     fprintf(out, "osdtex %s\n", osdtex_build());
     if (!put_files(out, context, values) ||
         osdtex_colour_hash(context, colour) != OSDTEX_OK)
         return false;
     fprintf(out, "colour %s\n", colour);
     /* A file rule may look at all of the exemplar's name. */
-    fprintf(out, "exemplar %s\n", values->operands[1]);
+    fprintf(
+        out, "exemplar %s\n", values->operands[1] ? values->operands[1] : "");
     put_flags(out, values);
     return true;
 }

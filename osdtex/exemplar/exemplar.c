@@ -112,8 +112,9 @@ finish_row(void *context, int64_t y, otx_worker *worker)
             r.bad_x = x;
         for (int k = 0; k < 3; ++k)
         {
-            r.low = fminf(r.low, texel[k]);
-            r.high = fmaxf(r.high, texel[k]);
+            /* fminf() is a call. */
+            r.low = texel[k] < r.low ? texel[k] : r.low;
+            r.high = texel[k] > r.high ? texel[k] : r.high;
         }
     }
     g->b->rows[y] = r;
@@ -179,7 +180,7 @@ build_linear(build *b)
 {
     OTX_TRY(bring(b, b->run->arena, b->linear_space, &b->out->linear));
     b->work = b->out->linear;
-    if (strcmp(b->pixel_space, b->work_space) == 0)
+    if (b->input->linear_only || strcmp(b->pixel_space, b->work_space) == 0)
         return OSDTEX_OK;
     return bring(b, b->run->scratch, b->work_space, &b->work);
 }
@@ -374,6 +375,8 @@ measure(
 static otx_status
 measure_both(otx_run *run, row_result *rows, otx_exemplar *e)
 {
+    if (!e->lab.pixels)
+        return OSDTEX_OK;
     OTX_TRY(measure(run, rows, &e->match, &e->match_sigma, &e->match_step));
     return measure(run, rows, &e->lab, &e->lab_sigma, &e->lab_step);
 }
@@ -508,20 +511,34 @@ record(build *b)
     return otx_fail_memory(b->run, stage);
 }
 
+/* What is compared, and what is found out by comparing. */
 static otx_status
-build_all(build *b)
+build_compared(build *b)
 {
     otx_exemplar *out = b->out;
 
+    if (b->input->linear_only)
+    {
+        out->match = out->lab =
+            (otx_image){out->linear.width, out->linear.height, 3, NULL};
+        out->wrap_x = out->wrap_y = b->input->wrap == OTX_EXEMPLAR_WRAP_YES;
+        return OSDTEX_OK;
+    }
+    OTX_TRY(build_views(b));
+    OTX_TRY(otx_progress(b->run, stage, 0.8));
+    OTX_TRY(measure_both(b->run, b->rows, out));
+    return resolve_wrap(b);
+}
+
+static otx_status
+build_all(build *b)
+{
     OTX_TRY(resolve_spaces(b));
     b->rows = OTX_ZNEW(b->run->scratch, row_result, b->input->pixels.height);
     OTX_TRY(otx_run_ok(b->run));
     OTX_TRY(build_linear(b));
     OTX_TRY(otx_progress(b->run, stage, 0.4));
-    OTX_TRY(build_views(b));
-    OTX_TRY(otx_progress(b->run, stage, 0.8));
-    OTX_TRY(measure_both(b->run, b->rows, out));
-    OTX_TRY(resolve_wrap(b));
+    OTX_TRY(build_compared(b));
     OTX_TRY(record(b));
     return otx_progress(b->run, stage, 1.0);
 }
@@ -552,6 +569,9 @@ crop(
 {
     const size_t row = (size_t)width * (size_t)from->channels;
 
+    *out = (otx_image){width, height, from->channels, NULL};
+    if (!from->pixels)
+        return OSDTEX_OK;
     OTX_TRY(
         otx_image_create(run, run->arena, width, height, from->channels, out));
     for (int32_t j = 0; j < height; ++j)
@@ -576,12 +596,12 @@ otx_exemplar_crop(
     OTX_TRY(crop(run, &from->match, x, y, width, height, &made.match));
     OTX_TRY(crop(run, &from->lab, x, y, width, height, &made.lab));
     OTX_TRY(measure_both(run, rows, &made));
-    if (width < from->lab.width)
+    if (width < from->lab.width && made.lab.pixels)
     {
         OTX_TRY(otx_tileable_test(run, &made.lab, 0, &test));
         made.wrap_x = test.tiles;
     }
-    if (height < from->lab.height)
+    if (height < from->lab.height && made.lab.pixels)
     {
         OTX_TRY(otx_tileable_test(run, &made.lab, 1, &test));
         made.wrap_y = test.tiles;
@@ -598,6 +618,9 @@ rearrange(
     const size_t count = (size_t)from->width * (size_t)from->height;
     const size_t channels = (size_t)from->channels;
 
+    *out = *from;
+    if (!from->pixels)
+        return OSDTEX_OK;
     OTX_TRY(otx_image_create(
         run, run->arena, from->width, from->height, from->channels, out));
     for (size_t i = 0; i < count; ++i)
@@ -658,6 +681,9 @@ resize(
     otx_texture texture;
     resizing r = {&texture, out};
 
+    *out = (otx_image){width, height, 3, NULL};
+    if (!from->pixels)
+        return OSDTEX_OK;
     OTX_TRY(otx_texture_create(
         run, run->scratch, from, e->wrap_x, e->wrap_y, &texture));
     OTX_TRY(otx_image_create(run, run->arena, width, height, 3, out));

@@ -15,7 +15,8 @@
 typedef struct otx_exemplar
 {
     otx_image linear; /* 3 or 4 channels (R, G, B[, A]) */
-    otx_image match;  /* 3 channels, same size unless made anew */
+    otx_image match;  /* 3 channels, same size unless made anew; it and `lab`
+                       * are sizes only where `linear` alone was asked for */
     otx_image lab;    /* 3 channels, CIELAB D65 of the display-like picture:
                        * what seams are measured in, whatever matches */
     bool wrap_x;      /* the picture tiles left to right */
@@ -67,6 +68,8 @@ typedef struct otx_exemplar_input
     const char *match_space;  /* --match-space, NULL role color_picking */
     otx_embedding embedding;
     otx_exemplar_wrap wrap;
+    bool linear_only; /* nothing is compared: it is all looked up by a mapping
+                       * that is there; then `wrap` of AUTO is NO */
 } otx_exemplar_input;
 
 /* Builds all of an exemplar in run->arena and says each decision in a finding.

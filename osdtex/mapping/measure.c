@@ -466,6 +466,12 @@ otx_measure_run(
         .lab_step = exemplars->lab_step,
     };
 
+    if (!exemplars->lab.pixels)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "measure", OTX_NOWHERE,
+            "the mapping was read to be looked up only, without what its "
+            "figures are measured by; read it again with figures");
+
     const otx_status status =
         measure_all(run, &s, options ? options : &defaults, out);
 

@@ -81,7 +81,8 @@ typedef struct otx_measure
  *              but windows and visible seams to those that they show
  *   options    NULL: defaults
  *
- * MEMORY, CANCELLED. A mapping without seams has seam figures of 0. */
+ * ARGUMENT (nothing of the exemplars can be compared), MEMORY, CANCELLED. A
+ * mapping without seams has seam figures of 0. */
 otx_status otx_measure_run(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_measure_options *options, otx_measure *out);

@@ -71,6 +71,60 @@ class Saved(ProgramTest):
             (self.folder / "whole.1002.exr").read_bytes(),
             (self.folder / "part.1002.exr").read_bytes())
 
+    def test_update(self):
+        """A bake from a saved mapping is a job like others: it is done again
+        when something that the mapping names has changed, not else, and says
+        so in its textures."""
+        there = self.folder / "there"
+        there.mkdir()
+        cage = shutil.copy(CAGE, there)
+        exemplar = shutil.copy(EXEMPLAR, there)
+        self.save(cage=cage, exemplar=exemplar)
+
+        def is_up_to_date(*more, **keywords):
+            result = self.bake_from("-u", *more, **keywords)
+            self.assert_exit(result, 0)
+            return "is up to date" in result.stderr
+
+        self.assertFalse(is_up_to_date())
+        self.assertTrue(is_up_to_date())
+        self.assertRegex(
+            (self.folder / "two.1001.exr").read_bytes(),
+            rb"osdtex job [0-9a-f]{32} of torus.obj seal ")
+        self.assertFalse(is_up_to_date("--margin", "8"))
+        self.assertFalse(
+            is_up_to_date(cage, EXEMPLARS / "gravel_tile.png"))
+        self.assertFalse(is_up_to_date())
+        # The picture as it is now: a warning, and another job.
+        shutil.copy(EXEMPLARS / "gravel_tile.png", exemplar)
+        self.assertFalse(is_up_to_date())
+        self.assertTrue(is_up_to_date())
+        # Another mapping in the file's place.
+        self.save("--seed", "2", cage=cage, exemplar=exemplar)
+        self.assertFalse(is_up_to_date())
+
+    def test_inputs_are_kept(self):
+        """Those that the saved mapping names, too."""
+        cage = shutil.copy(CAGE, self.folder / "x_cage.obj")
+        self.save(cage=cage)
+        result = self.bake_from(name="x.obj")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("is an input and would be replaced", result.stderr)
+
+    def test_several_exemplars(self):
+        """All of their textures are looked at."""
+        self.save("--also", f"stem={EXEMPLARS / 'gravel_tile.png'}",
+                  cage=CAGES / "materials_and_groups.obj")
+        how = ("map", "--from", self.saved, "-o", self.folder / "m.obj", "-u")
+        for words in "wrote", "up to date":
+            result = self.run_program(*how)
+            self.assert_exit(result, 0)
+            self.assertIn(words, result.stderr)
+        (self.folder / "m_2.exr").unlink()
+        result = self.run_program(*how)
+        self.assert_exit(result, 0)
+        self.assertIn("wrote", result.stderr)
+
     def test_another_picture_of_the_size(self):
         self.save()
         self.assert_exit(self.bake_from(CAGE, EXEMPLARS / "gravel_tile.png"), 0)
