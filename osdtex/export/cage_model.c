@@ -42,10 +42,8 @@ list_holes(otx_run *run, const otx_cage *cage, otx_obj *out)
     return OSDTEX_OK;
 }
 
-/* The cage's own materials; faces without one get `fallback`, since they would
- * show no texture. */
-static otx_status
-list_materials(
+otx_status
+otx_cage_model_materials(
     otx_run *run, const otx_cage *cage, const char *fallback, otx_obj *out)
 {
     const int32_t count = cage->face_material ? cage->material_count : 0;
@@ -137,7 +135,7 @@ otx_cage_model_obj(
     memcpy(out->origin, cage->origin, sizeof out->origin);
     set_names(cage, out);
     OTX_TRY(otx_cage_model_tags(run, cage, otx_cage_model_fvar(layout), out));
-    return list_materials(run, cage, fallback, out);
+    return otx_cage_model_materials(run, cage, fallback, out);
 }
 
 static const char *

@@ -24,6 +24,11 @@ otx_status otx_cage_model_obj(
     otx_run *run, const otx_layout *layout, const char *path,
     const char *library, const char *fallback, otx_obj *out);
 
+/* The cage's own materials, and which one each face has; faces without one get
+ * `fallback`, since they would show no texture. Made in run->scratch. */
+otx_status otx_cage_model_materials(
+    otx_run *run, const otx_cage *cage, const char *fallback, otx_obj *out);
+
 /* Creases, corners, holes and rules of a cage whose texture coordinates are
  * interpolated by `fvar`; what must be made is made in run->scratch. */
 otx_status otx_cage_model_tags(

@@ -425,12 +425,20 @@ static otx_status
 write_usda(const writer *w)
 {
     const char *path = path_of(w, ".usda");
+    otx_obj listed = {0};
     const char *temporary;
     otx_usda usda;
 
     OTX_TRY(otx_run_ok(w->run));
     otx_cage_model_usda(w->layout, w->names.stem, &usda);
+    OTX_TRY(otx_cage_model_materials(
+        w->run, w->layout->surface->cage, w->names.stem, &listed));
+    if (listed.materials.count > 1)
+        usda.materials = (otx_usda_subsets){
+            listed.materials.count, listed.materials.text,
+            listed.face_material};
     usda.texture = color_name(w);
+    usda.materialx = name_of(w, ".mtlx");
     usda.interop_id = otx_texture_file_interop_id(w->exemplars);
     /* A subdivided mesh has those of its limit in USD. */
     if (w->options->normals &&
@@ -458,8 +466,9 @@ write_mtlx(const writer *w)
 {
     const char *path = path_of(w, ".mtlx");
     const otx_mtlx mtlx = {
-        w->names.stem, color_name(w),
-        otx_texture_file_interop_id(w->exemplars)};
+        .name = w->names.stem,
+        .texture = color_name(w),
+        .interop_id = otx_texture_file_interop_id(w->exemplars)};
     const char *temporary;
 
     OTX_TRY(otx_run_ok(w->run));

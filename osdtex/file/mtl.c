@@ -249,8 +249,27 @@ otx_mtl_find(const otx_mtl *mtl, const char *name)
 }
 
 static void
+write_map(otx_text_out *out, const char *key, const char *file)
+{
+    if (!file)
+        return;
+    otx_text_out_string(out, key);
+    otx_text_out_char(out, ' ');
+    otx_text_out_name(out, file, true);
+    otx_text_out_char(out, '\n');
+}
+
+static bool
+is_shiny(const otx_data_maps *maps)
+{
+    return maps->roughness || maps->metalness;
+}
+
+static void
 write_material(otx_text_out *out, const otx_mtl_material *material)
 {
+    const otx_data_maps *maps = &material->maps;
+
     otx_text_out_string(out, "newmtl ");
     otx_text_out_name(out, material->name, false);
     otx_text_out_string(out, "\nKd");
@@ -259,13 +278,13 @@ write_material(otx_text_out *out, const otx_mtl_material *material)
         otx_text_out_char(out, ' ');
         otx_text_out_float(out, material->diffuse[i]);
     }
-    otx_text_out_string(out, "\nillum 1\n");
-    if (material->map_kd)
-    {
-        otx_text_out_string(out, "map_Kd ");
-        otx_text_out_name(out, material->map_kd, true);
-        otx_text_out_char(out, '\n');
-    }
+    otx_text_out_string(out, is_shiny(maps) ? "\nillum 2\n" : "\nillum 1\n");
+    write_map(out, "map_Kd", material->map_kd);
+    write_map(out, "map_Pr", maps->roughness);
+    write_map(out, "map_Pm", maps->metalness);
+    write_map(out, "norm", maps->normal);
+    write_map(out, "map_Bump", maps->normal ? maps->normal : maps->height);
+    write_map(out, "disp", maps->height);
 }
 
 otx_status

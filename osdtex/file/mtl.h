@@ -6,6 +6,8 @@
 #ifndef OTX_FILE_MTL_H
 #define OTX_FILE_MTL_H
 
+#include "file/data_maps.h"
+
 #include "base/run.h"
 
 typedef struct otx_mtl_material
@@ -14,6 +16,7 @@ typedef struct otx_mtl_material
     float diffuse[3];   /* `Kd`, 1 1 1 when absent */
     bool has_diffuse;   /* it is there; the writer always writes it */
     const char *map_kd; /* file name as written, options skipped; NULL none */
+    otx_data_maps maps; /* the reader does not look */
     int64_t line;       /* of `newmtl`; the writer does not look */
 } otx_mtl_material;
 
@@ -34,7 +37,9 @@ otx_status otx_mtl_parse(
  * (blanks become `_`); -1 none. Of several, the last, as readers do. */
 int32_t otx_mtl_find(const otx_mtl *mtl, const char *name);
 
-/* Writes `newmtl`, `Kd`, `illum 1` and `map_Kd` for each material to `path`.
+/* Writes `newmtl`, `Kd`, `illum` and `map_Kd` for each material to `path`; with
+ * other maps also `map_Pr`, `map_Pm`, `norm` and `disp`, and `map_Bump`: the
+ * normals, which Blender takes for it, or where there are none the height.
  * `title` is for messages (NULL: the path). */
 otx_status otx_mtl_write(
     otx_run *run, const otx_mtl *mtl, const char *path, const char *title);

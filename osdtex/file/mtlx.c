@@ -48,17 +48,25 @@ write_escaped(otx_text_out *out, const char *text)
         }
 }
 
+/* One image, called NAME_key.
+ *
+ *   type   of its values: "color3", "vector3", "float"
+ *   space  that they are in; NULL: none is stated, and data have none */
 static void
-write_image(otx_text_out *out, const otx_mtlx *mtlx, const char *name)
+write_image(
+    otx_text_out *out, const char *name, const char *key, const char *type,
+    const char *file, const char *space)
 {
-    const char *space = color_space(mtlx->interop_id);
-
+    if (!file)
+        return;
     otx_text_out_string(out, "  <image name=\"");
     otx_text_out_string(out, name);
+    otx_text_out_string(out, key);
+    otx_text_out_string(out, "\" type=\"");
+    otx_text_out_string(out, type);
     otx_text_out_string(
-        out, "_image\" type=\"color3\">\n    <input name=\"file\" "
-             "type=\"filename\" value=\"");
-    write_escaped(out, mtlx->texture);
+        out, "\">\n    <input name=\"file\" type=\"filename\" value=\"");
+    write_escaped(out, file);
     otx_text_out_char(out, '"');
     if (space)
     {
@@ -75,27 +83,95 @@ write_image(otx_text_out *out, const otx_mtlx *mtlx, const char *name)
              "  </image>\n");
 }
 
+/* `$` stands for the material's name. */
 static void
-write_material(otx_text_out *out, const char *name)
+write_text(otx_text_out *out, const char *text, const char *name)
 {
-    static const char text[] =
-        "  <standard_surface name=\"$_surface\" type=\"surfaceshader\">\n"
-        "    <input name=\"base\" type=\"float\" value=\"1\" />\n"
-        "    <input name=\"base_color\" type=\"color3\" "
-        "nodename=\"$_image\" />\n"
-        "    <input name=\"specular_roughness\" type=\"float\" value=\"0.5\" "
-        "/>\n"
-        "  </standard_surface>\n"
-        "  <surfacematerial name=\"$\" type=\"material\">\n"
-        "    <input name=\"surfaceshader\" type=\"surfaceshader\" "
-        "nodename=\"$_surface\" />\n"
-        "  </surfacematerial>\n";
-
     for (const char *c = text; *c; ++c)
         if (*c == '$')
             otx_text_out_string(out, name);
         else
             otx_text_out_char(out, *c);
+}
+
+static void
+write_images(otx_text_out *out, const otx_mtlx *m, const char *name)
+{
+    write_image(
+        out, name, "_image", "color3", m->texture, color_space(m->interop_id));
+    write_image(out, name, "_normal", "vector3", m->maps.normal, NULL);
+    write_image(out, name, "_roughness", "float", m->maps.roughness, NULL);
+    write_image(out, name, "_metalness", "float", m->maps.metalness, NULL);
+    write_image(out, name, "_height", "float", m->maps.height, NULL);
+}
+
+static void
+write_surface(otx_text_out *out, const otx_mtlx *m, const char *name)
+{
+    if (m->maps.normal)
+        write_text(
+            out,
+            "  <normalmap name=\"$_bent\" type=\"vector3\">\n"
+            "    <input name=\"in\" type=\"vector3\" "
+            "nodename=\"$_normal\" />\n"
+            "  </normalmap>\n",
+            name);
+    write_text(
+        out,
+        "  <standard_surface name=\"$_surface\" type=\"surfaceshader\">\n"
+        "    <input name=\"base\" type=\"float\" value=\"1\" />\n"
+        "    <input name=\"base_color\" type=\"color3\" "
+        "nodename=\"$_image\" />\n",
+        name);
+    write_text(
+        out,
+        m->maps.roughness
+            ? "    <input name=\"specular_roughness\" type=\"float\" "
+              "nodename=\"$_roughness\" />\n"
+            : "    <input name=\"specular_roughness\" type=\"float\" "
+              "value=\"0.5\" />\n",
+        name);
+    if (m->maps.metalness)
+        write_text(
+            out,
+            "    <input name=\"metalness\" type=\"float\" "
+            "nodename=\"$_metalness\" />\n",
+            name);
+    if (m->maps.normal)
+        write_text(
+            out,
+            "    <input name=\"normal\" type=\"vector3\" "
+            "nodename=\"$_bent\" />\n",
+            name);
+    otx_text_out_string(out, "  </standard_surface>\n");
+}
+
+static void
+write_material(otx_text_out *out, const otx_mtlx *m, const char *name)
+{
+    if (m->maps.height)
+        write_text(
+            out,
+            "  <displacement name=\"$_displacement\" "
+            "type=\"displacementshader\">\n"
+            "    <input name=\"displacement\" type=\"float\" "
+            "nodename=\"$_height\" />\n"
+            "    <input name=\"scale\" type=\"float\" value=\"1\" />\n"
+            "  </displacement>\n",
+            name);
+    write_text(
+        out,
+        "  <surfacematerial name=\"$\" type=\"material\">\n"
+        "    <input name=\"surfaceshader\" type=\"surfaceshader\" "
+        "nodename=\"$_surface\" />\n",
+        name);
+    if (m->maps.height)
+        write_text(
+            out,
+            "    <input name=\"displacementshader\" "
+            "type=\"displacementshader\" nodename=\"$_displacement\" />\n",
+            name);
+    otx_text_out_string(out, "  </surfacematerial>\n");
 }
 
 otx_status
@@ -114,8 +190,9 @@ otx_mtlx_write(
         otx_text_out_string(
             out, "<?xml version=\"1.0\"?>\n<materialx version=\"1.38\">\n");
         otx_text_out_mark(out, run->mark, "<!-- ", " -->\n");
-        write_image(out, mtlx, name);
-        write_material(out, name);
+        write_images(out, mtlx, name);
+        write_surface(out, mtlx, name);
+        write_material(out, mtlx, name);
         otx_text_out_string(out, "</materialx>\n");
         status = otx_text_out_close(run, out);
     }

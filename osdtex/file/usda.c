@@ -2,6 +2,7 @@
 #include "file/usda.h"
 
 #include "file/text_out.h"
+#include "file/usda_look.h"
 
 #include <math.h>
 #include <string.h>
@@ -250,46 +251,81 @@ write_normals(otx_run *run, otx_text_out *out, const otx_usda *u)
     return true;
 }
 
-/* Names that become one identifier would be one prim: the index tells them
- * apart. */
+/* The faces of one name, of one family. Names that become one identifier would
+ * be one prim: the index tells them apart. */
 static bool
-write_subset(otx_run *run, otx_text_out *out, const otx_usda *u, int32_t index)
+begin_subset(
+    otx_run *run, otx_text_out *out, const otx_usda *u,
+    const otx_usda_subsets *family, int32_t index, const char *kind)
 {
-    const char *name =
-        otx_usda_identifier(run->scratch, u->groups.names[index]);
+    const char *name = otx_usda_identifier(run->scratch, family->names[index]);
+    const bool binds = family == &u->materials;
     int32_t *faces = OTX_NEW(run->scratch, int32_t, u->face_count);
     int32_t count = 0;
 
     if (!name || !faces)
         return false;
     for (int32_t f = 0; f < u->face_count; ++f)
-        if (u->groups.face_names[f] == index)
+        if (family->face_names[f] == index)
             faces[count++] = f;
-    otx_text_out_string(out, "\n        def GeomSubset \"group_");
+    otx_text_out_string(out, "\n        def GeomSubset \"");
+    otx_text_out_string(out, kind);
+    otx_text_out_char(out, '_');
     otx_text_out_int(out, index);
     otx_text_out_char(out, '_');
     otx_text_out_string(out, name);
-    otx_text_out_string(out, "\"\n        {\n    ");
+    otx_text_out_string(
+        out, binds ? "\" (\n            prepend apiSchemas = "
+                     "[\"MaterialBindingAPI\"]\n        )\n        {\n    "
+                   : "\"\n        {\n    ");
     write_token(out, "uniform token", "elementType", "face");
     otx_text_out_string(out, "    ");
-    write_token(out, "uniform token", "familyName", "group");
+    write_token(
+        out, "uniform token", "familyName", binds ? "materialBind" : "group");
     otx_text_out_string(out, "    ");
     write_ints(out, "indices", faces, count);
-    otx_text_out_string(out, "\n        }\n");
+    otx_text_out_char(out, '\n');
     return true;
 }
 
 static bool
-write_subsets(otx_run *run, otx_text_out *out, const otx_usda *u)
+write_binding(
+    otx_run *run, otx_text_out *out, const otx_usda *u, const char *model,
+    int32_t index)
 {
-    for (int32_t i = 0; u->groups.face_names && i < u->groups.count; ++i)
+    const char *prim =
+        otx_usda_look_material(run->scratch, &u->materials, index);
+
+    if (!prim)
+        return false;
+    otx_text_out_string(out, "            rel material:binding = </");
+    otx_text_out_string(out, model);
+    otx_text_out_char(out, '/');
+    otx_text_out_string(out, prim);
+    otx_text_out_string(out, ">\n");
+    return true;
+}
+
+/* Families of subsets: materials are bound to theirs. */
+static bool
+write_subsets(
+    otx_run *run, otx_text_out *out, const otx_usda *u,
+    const otx_usda_subsets *family, const char *model)
+{
+    const bool binds = family == &u->materials;
+
+    for (int32_t i = 0; family->face_names && i < family->count; ++i)
     {
         const otx_arena_mark mark = otx_arena_here(run->scratch);
-        const bool ok = write_subset(run, out, u, i);
+        const bool ok =
+            begin_subset(
+                run, out, u, family, i, binds ? "material" : "group") &&
+            (!binds || write_binding(run, out, u, model, i));
 
         otx_arena_release(run->scratch, mark);
         if (!ok)
             return false;
+        otx_text_out_string(out, "        }\n");
     }
     return true;
 }
@@ -319,111 +355,16 @@ write_mesh(otx_run *run, otx_text_out *out, const otx_usda *u, const char *name)
     otx_text_out_string(out, "        rel material:binding = </");
     otx_text_out_string(out, name);
     otx_text_out_string(out, "/Look>\n");
-    if (!write_subsets(run, out, u))
+    if (u->materials.face_names)
+        otx_text_out_string(
+            out, "        uniform token subsetFamily:materialBind:familyType = "
+                 "\"partition\"\n");
+    if (!write_subsets(run, out, u, &u->materials, name) ||
+        !write_subsets(run, out, u, &u->groups, name))
         return false;
     otx_text_out_string(out, "    }\n\n");
     return true;
 }
-
-/* ---- look -----------------------------------------------------------------
- */
-
-/* UsdUVTexture knows two encodings: sRGB, and numbers that are taken as they
- * are, by which an EXR is linear Rec.709 unless its attribute says otherwise.
- */
-static const char *
-source_color_space(const otx_usda *u)
-{
-    return u->interop_id && strcmp(u->interop_id, "srgb_rec709_scene") == 0
-               ? "sRGB"
-               : "raw";
-}
-
-/* Between single `@` or, where there is one in the name, between three: there
- * only a run of three needs a backslash. */
-static void
-write_asset(otx_text_out *out, const char *path)
-{
-    const char *delimiter = strchr(path, '@') ? "@@@" : "@";
-
-    otx_text_out_string(out, delimiter);
-    for (; *path; ++path)
-    {
-        if (strncmp(path, "@@@", 3) == 0)
-        {
-            otx_text_out_string(out, "\\@@@");
-            path += 2;
-            continue;
-        }
-        otx_text_out_char(out, *path);
-    }
-    otx_text_out_string(out, delimiter);
-}
-
-/* The asset and, as metadata of the attribute, the space of its colours, which
- * UsdShade defines for what is colour managed. */
-static void
-write_texture(otx_text_out *out, const otx_usda *u)
-{
-    write_asset(out, u->texture);
-    if (!u->interop_id)
-        return;
-    otx_text_out_string(out, " (\n                colorSpace = \"");
-    otx_text_out_string(out, u->interop_id);
-    otx_text_out_string(out, "\"\n            )");
-}
-
-/* `$` stands for the model's name, `@` for the texture and `%` for how its
- * numbers are encoded. */
-static void
-write_template(
-    otx_text_out *out, const char *text, const char *name, const otx_usda *u)
-{
-    for (const char *c = text; *c; ++c)
-        if (*c == '$')
-            otx_text_out_string(out, name);
-        else if (*c == '@')
-            write_texture(out, u);
-        else if (*c == '%')
-            otx_text_out_string(out, source_color_space(u));
-        else
-            otx_text_out_char(out, *c);
-}
-
-static const char look[] =
-    "    def Material \"Look\"\n"
-    "    {\n"
-    "        token outputs:surface.connect = "
-    "</$/Look/Surface.outputs:surface>\n"
-    "\n"
-    "        def Shader \"Surface\"\n"
-    "        {\n"
-    "            uniform token info:id = \"UsdPreviewSurface\"\n"
-    "            color3f inputs:diffuseColor.connect = "
-    "</$/Look/Texture.outputs:rgb>\n"
-    "            float inputs:roughness = 0.5\n"
-    "            token outputs:surface\n"
-    "        }\n"
-    "\n"
-    "        def Shader \"Texture\"\n"
-    "        {\n"
-    "            uniform token info:id = \"UsdUVTexture\"\n"
-    "            asset inputs:file = @\n"
-    "            token inputs:sourceColorSpace = \"%\"\n"
-    "            token inputs:wrapS = \"clamp\"\n"
-    "            token inputs:wrapT = \"clamp\"\n"
-    "            float2 inputs:st.connect = </$/Look/Reader.outputs:result>\n"
-    "            float3 outputs:rgb\n"
-    "        }\n"
-    "\n"
-    "        def Shader \"Reader\"\n"
-    "        {\n"
-    "            uniform token info:id = \"UsdPrimvarReader_float2\"\n"
-    "            string inputs:varname = \"st\"\n"
-    "            float2 outputs:result\n"
-    "        }\n"
-    "    }\n"
-    "}\n";
 
 static otx_status
 write_all(otx_run *run, otx_text_out *out, const otx_usda *u)
@@ -439,19 +380,21 @@ write_all(otx_run *run, otx_text_out *out, const otx_usda *u)
         otx_text_out_char(out, '\n');
     }
     otx_text_out_mark(out, run->mark, "# ", "\n");
-    write_template(out, "(\n    defaultPrim = \"$\"\n", name, u);
+    otx_text_out_string(out, "(\n    defaultPrim = \"");
+    otx_text_out_string(out, name);
+    otx_text_out_string(out, "\"\n");
     otx_text_out_string(out, "    metersPerUnit = ");
     otx_text_out_double(out, u->meters_per_unit);
     otx_text_out_string(
         out, u->z_up ? "\n    upAxis = \"Z\"\n" : "\n    upAxis = \"Y\"\n");
-    write_template(
-        out,
-        ")\n\n"
-        "def Xform \"$\" (\n    kind = \"component\"\n)\n{\n",
-        name, u);
+    otx_text_out_string(out, ")\n\ndef Xform \"");
+    otx_text_out_string(out, name);
+    otx_text_out_string(out, "\" (\n    kind = \"component\"\n)\n{\n");
     if (!write_mesh(run, out, u, name))
         return otx_fail_memory(run, STAGE);
-    write_template(out, look, name, u);
+    if (!otx_usda_look_write(run, out, u, name))
+        return otx_fail_memory(run, STAGE);
+    otx_text_out_string(out, "}\n");
     return otx_text_out_close(run, out);
 }
 

@@ -1,10 +1,12 @@
 /* usda.h -- a subdivision cage and its look as a USD text file.
  *
  * One Mesh with everything that OBJ cannot say (scheme, creases, corners,
- * holes, how UVs are smoothed), one UsdPreviewSurface with one texture. USD's
+ * holes, how UVs are smoothed), one UsdPreviewSurface with its textures. USD's
  * library is not needed: the text format is plain. */
 #ifndef OTX_FILE_USDA_H
 #define OTX_FILE_USDA_H
+
+#include "file/data_maps.h"
 
 #include "base/run.h"
 
@@ -42,11 +44,15 @@ typedef struct otx_usda
     const float *corner_tag_sharpness;
     const uint8_t *face_hole; /* [face_count] or NULL */
     otx_usda_subsets groups;
+    otx_usda_subsets materials; /* of which each face has one; all have the
+                                 * look, so that they may be told apart */
 
     double meters_per_unit; /* positive */
     bool z_up;              /* else y is up */
     const char *texture; /* file name relative to this one; may hold <UDIM> */
     const char *interop_id; /* colorInteropID of its pixels; NULL unknown */
+    const char *materialx;  /* file name of the same look; NULL none */
+    otx_data_maps maps;     /* what else is known of the material */
     const char *const *comments; /* [comment_count], without `#` */
     int32_t comment_count;
 } otx_usda;

@@ -21,7 +21,10 @@ static void
 the_texture_and_its_space_are_named(void **state)
 {
     otx_run *run = test_run_create();
-    const otx_mtlx mtlx = {"my shirt", "my_shirt.<UDIM>.exr", "lin_ap1_scene"};
+    const otx_mtlx mtlx = {
+        .name = "my shirt",
+        .texture = "my_shirt.<UDIM>.exr",
+        .interop_id = "lin_ap1_scene"};
     const char *text = written(run, &mtlx);
 
     (void)state;
@@ -43,7 +46,8 @@ unknown_spaces_are_left_out(void **state)
     (void)state;
     for (int i = 0; i < 3; ++i)
     {
-        const otx_mtlx mtlx = {"a", "a.exr", ids[i]};
+        const otx_mtlx mtlx = {
+            .name = "a", .texture = "a.exr", .interop_id = ids[i]};
 
         assert_null(strstr(written(run, &mtlx), "colorspace"));
     }
@@ -54,11 +58,36 @@ static void
 file_names_are_escaped(void **state)
 {
     otx_run *run = test_run_create();
-    const otx_mtlx mtlx = {"a", "a&\"b\".exr", NULL};
+    const otx_mtlx mtlx = {.name = "a", .texture = "a&\"b\".exr"};
 
     (void)state;
     assert_non_null(
         strstr(written(run, &mtlx), "value=\"a&amp;&quot;b&quot;.exr\""));
+    test_run_destroy(run);
+}
+
+static void
+maps_are_data(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_mtlx mtlx = {
+        .name = "a",
+        .texture = "a.exr",
+        .interop_id = "lin_ap1_scene",
+        .maps = {
+            .normal = "n.exr",
+            .roughness = "r.exr",
+            .metalness = "m.exr",
+            .height = "h.exr"}};
+    const char *text = written(run, &mtlx);
+
+    (void)state;
+    assert_non_null(strstr(text, "value=\"n.exr\" />"));
+    assert_non_null(strstr(text, "<normalmap name=\"a_bent\""));
+    assert_non_null(strstr(text, "nodename=\"a_roughness\""));
+    assert_non_null(strstr(text, "nodename=\"a_metalness\""));
+    assert_non_null(strstr(text, "<displacement name=\"a_displacement\""));
+    assert_non_null(strstr(text, "nodename=\"a_displacement\""));
     test_run_destroy(run);
 }
 
@@ -69,6 +98,7 @@ main(void)
         cmocka_unit_test(the_texture_and_its_space_are_named),
         cmocka_unit_test(unknown_spaces_are_left_out),
         cmocka_unit_test(file_names_are_escaped),
+        cmocka_unit_test(maps_are_data),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -114,6 +114,67 @@ everything_of_a_cage_is_said(void **state)
     test_run_destroy(run);
 }
 
+/* Every map goes where UsdPreviewSurface wants it, as numbers. */
+static void
+maps_are_connected(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_usda usda = small_cage();
+    const char *text;
+
+    (void)state;
+    usda.maps = (otx_data_maps){
+        .normal = "n.<UDIM>.exr",
+        .roughness = "r.exr",
+        .metalness = "m.exr",
+        .height = "h.exr",
+        .occlusion = "o.exr"};
+    usda.materialx = "shirts.mtlx";
+    text = written(run, &usda);
+    assert_says(
+        text, "prepend references = "
+              "@shirts.mtlx@</MaterialX/Materials/_2_shirts>");
+    assert_says(
+        text, "normal3f inputs:normal.connect = "
+              "</_2_shirts/Look/Normal.outputs:rgb>");
+    assert_says(text, "float4 inputs:scale = (2, 2, 2, 1)");
+    assert_says(text, "float4 inputs:bias = (-1, -1, -1, 0)");
+    assert_says(
+        text, "float inputs:roughness.connect = "
+              "</_2_shirts/Look/Roughness.outputs:r>");
+    assert_says(text, "float inputs:metallic.connect = ");
+    assert_says(text, "float inputs:occlusion.connect = ");
+    assert_says(text, "float inputs:displacement.connect = ");
+    assert_says(
+        text, "token outputs:displacement.connect = "
+              "</_2_shirts/Look/Surface.outputs:displacement>");
+    assert_says(text, "asset inputs:file = @n.<UDIM>.exr@\n");
+    assert_null(strstr(text, "inputs:roughness = 0.5"));
+    assert_null(strstr(text, "\"sRGB\""));
+    test_run_destroy(run);
+}
+
+static void
+materials_are_bound_to_their_faces(void **state)
+{
+    static const char *const names[] = {"cap", "stone grey"};
+    static const int32_t faces[] = {1, 0};
+    otx_run *run = test_run_create();
+    otx_usda usda = small_cage();
+    const char *text;
+
+    (void)state;
+    usda.materials = (otx_usda_subsets){2, names, faces};
+    text = written(run, &usda);
+    assert_says(text, "def GeomSubset \"material_1_stone_grey\"");
+    assert_says(text, "uniform token familyName = \"materialBind\"");
+    assert_says(
+        text, "rel material:binding = </_2_shirts/material_1_stone_grey>");
+    assert_says(text, "def Material \"material_1_stone_grey\" (");
+    assert_says(text, "prepend inherits = </_2_shirts/Look>");
+    test_run_destroy(run);
+}
+
 static void
 what_is_not_there_is_not_said(void **state)
 {
@@ -213,6 +274,8 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(everything_of_a_cage_is_said),
+        cmocka_unit_test(maps_are_connected),
+        cmocka_unit_test(materials_are_bound_to_their_faces),
         cmocka_unit_test(what_is_not_there_is_not_said),
         cmocka_unit_test(brackets_close),
         cmocka_unit_test(names_become_identifiers),
