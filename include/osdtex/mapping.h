@@ -169,12 +169,6 @@ OSDTEX_API osdtex_status osdtex_mapping_write(
     osdtex_context *context, const osdtex_mapping *mapping, const char *path,
     const osdtex_write_options *options);
 
-/* Writes what was done as JSON: inputs with hashes, options and colour
- * decisions as resolved, patches, seams, distortion, times since the context
- * was created, findings. IO, MEMORY. */
-OSDTEX_API osdtex_status osdtex_report_write(
-    osdtex_context *context, const osdtex_mapping *mapping, const char *path);
-
 /* Saves a mapping, from which osdtex_mapping_read() makes it again without
  * mapping anew: to bake another layout, size or tile of it, or another picture
  * in the place of its own. docs/formats-mapping.md says what is in the file,

@@ -59,6 +59,7 @@
 #include <osdtex/method.h>
 #include <osdtex/preflight.h>
 #include <osdtex/render.h>
+#include <osdtex/report.h>
 #include <osdtex/surface.h>
 #include <osdtex/textures.h>
 #include <osdtex/tiles.h>

@@ -2,27 +2,18 @@
  *
  * Keys are sorted and numbers are printed by jansson, which undoes a decimal
  * comma. What is in it is described in docs/report.md. */
-#include "api/call.h"
+#include "api/report.h"
 #include "api/field_report.h"
 #include "api/handle.h"
 #include "api/tile_report.h"
 #include "base/hash.h"
-#include "file/atomic_file.h"
 #include "mapping/measure.h"
 
-#include <errno.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
-
-enum
-{
-    /* Windows at seams that are looked up in the exemplar. Each costs two
-     * searches over all places and 36 angles; 64 tell medians apart. */
-    WINDOWS = 64
-};
 
 static const char *const schemes[] = {"catmark", "loop", "bilinear", "none"};
 static const char *const boundaries[] = {"none", "edgeOnly", "edgeAndCorner"};
@@ -413,48 +404,18 @@ release_json(void *root)
     json_decref(root);
 }
 
-static otx_status
-dump(otx_run *run, const json_t *root, const char *path)
+otx_status
+otx_report_build(
+    otx_call *call, const osdtex_mapping *mapping, int32_t windows,
+    json_t **out)
 {
-    otx_where where = OTX_NOWHERE;
-    otx_atomic_file_set *set_of_one;
-    const char *temporary;
-    FILE *file;
-    bool written;
-
-    where.file = path;
-    OTX_TRY(otx_atomic_file_begin(run, run->arena, &set_of_one));
-    OTX_TRY(otx_atomic_file_add(run, set_of_one, path, &temporary));
-    file = fopen(temporary, "w");
-    written = file && json_dumpf(
-                          root, file,
-                          JSON_SORT_KEYS | JSON_INDENT(2) |
-                              JSON_REAL_PRECISION(9)) == 0;
-    written = written && fputc('\n', file) != EOF && fflush(file) == 0;
-    if (file && fclose(file) != 0)
-        written = false;
-    if (!written)
-        return otx_fail(
-            run, OSDTEX_ERROR_IO, "report", where,
-            "the report cannot be written: %s", strerror(errno));
-    return otx_atomic_file_commit(run, set_of_one, false);
-}
-
-static otx_status
-write_report(otx_call *call, const osdtex_mapping *mapping, const char *path)
-{
-    otx_measure_options how = otx_measure_options_default();
+    const otx_measure_options how = {.window_count = windows};
     const osdtex_context *context = call->context;
     otx_run *run = &call->run;
     char mark[OTX_MARK_BYTES];
     otx_measure measure;
     json_t *root;
 
-    if (!mapping || !path)
-        return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, "report", OTX_NOWHERE,
-            "no mapping or no path is given");
-    how.window_count = WINDOWS;
     run->seed = mapping->seed;
     OTX_TRY(otx_measure_run(
         run, &mapping->mapping, mapping->exemplars, &how, &measure));
@@ -481,15 +442,6 @@ write_report(otx_call *call, const osdtex_mapping *mapping, const char *path)
     put_exemplars(root, mapping, &measure);
     put_cost(root, context, mapping);
     put_diagnostics(root, context);
-    return dump(run, root, path);
-}
-
-osdtex_status
-osdtex_report_write(
-    osdtex_context *context, const osdtex_mapping *mapping, const char *path)
-{
-    otx_call call;
-
-    OTX_TRY(otx_call_begin(context, "report", &call));
-    return otx_call_drop(&call, write_report(&call, mapping, path));
+    *out = root;
+    return OSDTEX_OK;
 }
