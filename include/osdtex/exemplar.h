@@ -3,6 +3,7 @@
 #define OSDTEX_EXEMPLAR_H
 
 #include <osdtex/image.h>
+#include <osdtex/material.h>
 
 OSDTEX_BEGIN_DECLS
 
@@ -67,6 +68,15 @@ typedef struct osdtex_exemplar_options
     osdtex_receiver receiver; /* of the textures; `to` wins over it */
     const char *layer; /* of an EXR, by name; NULL: plain R, G, B of any part,
                         * else what is called as beauties are */
+    /* The other maps of the material: what is done to the picture's texels is
+     * done to theirs. */
+    const osdtex_companion *maps; /* [map_count] */
+    int32_t map_count;
+    int32_t reserved;
+    double height_range;  /* scene units from the lowest to the highest value of
+                           * a height map, 0 and 1; 0: a twentieth of the
+                           * exemplar's width */
+    double height_middle; /* the value that stays on the surface; .5 */
 } osdtex_exemplar_options;
 
 static inline osdtex_exemplar_options
@@ -78,6 +88,7 @@ osdtex_exemplar_options_default(void)
     options.embedding = OSDTEX_EMBEDDING_HSV_CONE;
     options.wrap = OSDTEX_WRAP_AUTO;
     options.tileable = OSDTEX_TILEABLE_KEEP;
+    options.height_middle = 0.5;
     return options;
 }
 /* The same for hosts that cannot call inline functions: see osdtex.h. */
@@ -104,6 +115,8 @@ typedef struct osdtex_exemplar_info
                             * as read, before it was cropped to be made to
                             * tile, or the one tiles were made of */
     int32_t tile_size;     /* texels; 0: this is no tiled texture */
+    uint32_t maps;         /* bit k: there is a map of kind k */
+    int32_t reserved;
 } osdtex_exemplar_info;
 
 /* Reads EXR, PNG, TIFF or JPEG, told by content. FORMAT, SUPPORT, LIMIT,

@@ -192,6 +192,11 @@ typedef struct osdtex_mapping_read_options
     int32_t without_figures; /* 1: to be baked, written and drawn, not to be
                               * measured by osdtex_report_write(): of large
                               * exemplars that is read much sooner */
+    /* The other maps of the first exemplar's material: exemplar.h. */
+    const osdtex_companion *maps; /* [map_count] */
+    int32_t map_count;
+    int32_t reserved;
+    double height_range, height_middle;
 } osdtex_mapping_read_options;
 
 static inline osdtex_mapping_read_options
@@ -200,6 +205,7 @@ osdtex_mapping_read_options_default(void)
     osdtex_mapping_read_options options = OSDTEX_ZERO;
 
     options.size = sizeof options;
+    options.height_middle = 0.5;
     return options;
 }
 /* The same for hosts that cannot call inline functions: see osdtex.h. */

@@ -18,7 +18,8 @@
  * and beside it memory, threads and findings (context.h), the refined surface
  * for hosts that look at it (surface.h), directions that a
  * texture follows (field.h), the methods and their settings (method.h), tiled
- * textures (tiles.h), pixels (image.h) and what files depend on (files.h).
+ * textures (tiles.h), the files of a material (material.h), pixels (image.h)
+ * and what files depend on (files.h).
  *
  * Every call that can fail returns an osdtex_status; on failure *out is NULL,
  * the inputs are untouched, and the context holds diagnostics addressed to the
@@ -56,6 +57,7 @@
 #include <osdtex/files.h>
 #include <osdtex/image.h>
 #include <osdtex/mapping.h>
+#include <osdtex/material.h>
 #include <osdtex/method.h>
 #include <osdtex/preflight.h>
 #include <osdtex/render.h>

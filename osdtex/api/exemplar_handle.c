@@ -3,6 +3,7 @@
 
 #include "analysis/analysis.h"
 #include "api/call.h"
+#include "api/companion_pictures.h"
 #include "api/picture_source.h"
 #include "base/hash.h"
 #include "file/picture.h"
@@ -13,16 +14,14 @@
 #include <math.h>
 #include <string.h>
 
-static const char *
-type_of(const otx_picture *picture)
+static uint32_t
+maps_of(const otx_companions *companions)
 {
-    if (picture->is_float)
-        return picture->bits == 16   ? "half"
-               : picture->bits == 32 ? "float"
-                                     : "double";
-    if (picture->bits <= 8)
-        return "8-bit";
-    return picture->bits <= 16 ? "16-bit" : "32-bit";
+    uint32_t maps = 0;
+
+    for (int k = 0; k < OTX_COMPANION_COUNT; ++k)
+        maps |= companions->maps[k].is_there ? 1u << k : 0u;
+    return maps;
 }
 
 static osdtex_exemplar_info
@@ -43,6 +42,7 @@ info_of(const otx_exemplar *exemplar, const char *type)
         .wrap_y = exemplar->wrap_y,
         .pixels = exemplar->linear.pixels,
         .source_width = exemplar->linear.width,
+        .maps = maps_of(&exemplar->companions),
     };
 }
 
@@ -270,6 +270,7 @@ build(
     input->wrap = (otx_exemplar_wrap)options->wrap;
     handle->arena = run->arena;
     OTX_TRY(otx_exemplar_build(run, colour, input, &handle->exemplar));
+    OTX_TRY(otx_companion_pictures_take(call, options, &handle->exemplar));
     width = handle->exemplar.linear.width;
     height = handle->exemplar.linear.height;
     handle->cuts = (otx_exemplar_cuts){
@@ -354,8 +355,8 @@ read_exemplar(
         ours.tileable = OSDTEX_TILEABLE_KEEP;
     }
     OTX_TRY(build(
-        call, &input, &ours, cuts, type_of(&picture), picture.tiles != NULL,
-        out));
+        call, &input, &ours, cuts, otx_picture_source_type(&picture),
+        picture.tiles != NULL, out));
     return picture.tiles ? keep_tiles(&call->run, path, picture.tiles, *out)
                          : OSDTEX_OK;
 }

@@ -21,3 +21,15 @@ otx_picture_source_fill(const otx_picture *picture, otx_colour_source *out)
     out->says_adobe_rgb = picture->says_adobe_rgb;
     out->is_gray = picture->is_gray;
 }
+
+const char *
+otx_picture_source_type(const otx_picture *picture)
+{
+    if (picture->is_float)
+        return picture->bits == 16   ? "half"
+               : picture->bits == 32 ? "float"
+                                     : "double";
+    if (picture->bits <= 8)
+        return "8-bit";
+    return picture->bits <= 16 ? "16-bit" : "32-bit";
+}

@@ -11,4 +11,7 @@
 void
 otx_picture_source_fill(const otx_picture *picture, otx_colour_source *out);
 
+/* How its numbers are stored: "8-bit", "half", ... */
+const char *otx_picture_source_type(const otx_picture *picture);
+
 #endif

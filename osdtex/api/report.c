@@ -97,6 +97,37 @@ put_exemplar(json_t *e, const osdtex_exemplar_info *exemplar)
     set_int(e, "channels", exemplar->channels);
 }
 
+/* The other maps of a material, by what they are. */
+static void
+put_maps(json_t *parent, const otx_companions *companions)
+{
+    json_t *maps;
+
+    if (!otx_companions_are_there(companions))
+        return;
+    maps = add_object(parent, "maps");
+    for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
+    {
+        const otx_companion *map = &companions->maps[k];
+        json_t *one;
+
+        if (!map->is_there)
+            continue;
+        one = add_object(maps, otx_companion_name((otx_companion_kind)k));
+        set_text(one, "path", map->path);
+        set_text(one, "hash", map->hash);
+        set_text(one, "type", map->type);
+        set_text(one, "space", "data");
+        set_int(one, "channel", map->channel);
+        set_int(one, "width", map->width);
+        set_int(one, "height", map->height);
+        if (k == OTX_COMPANION_NORMAL)
+            set_text(one, "y", map->y_down ? "down" : "up");
+        if (map->is_inverted)
+            set(one, "inverted", json_true());
+    }
+}
+
 static void
 put_inputs(json_t *root, const osdtex_mapping *mapping)
 {
@@ -118,6 +149,7 @@ put_inputs(json_t *root, const osdtex_mapping *mapping)
     set_int(c, "holes", cage->hole_count);
     set_real(c, "diagonal", cage->diagonal);
     put_exemplar(e, exemplar);
+    put_maps(e, &mapping->exemplar->exemplar.companions);
 }
 
 /* Of several: what became of each. */
@@ -139,6 +171,7 @@ put_exemplars(
 
         json_array_append_new(list, one);
         put_exemplar(one, info);
+        put_maps(one, &exemplar->companions);
         set_text(one, "from", info->source_space);
         set_text(one, "class", mapping->figures.classes[k]);
         set(one, "wrap_x", json_boolean(info->wrap_x));

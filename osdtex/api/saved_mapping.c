@@ -302,6 +302,13 @@ read_exemplar(loader *l, int32_t k)
         s->options.to = l->options.to;
         s->options.receiver = l->options.receiver;
     }
+    if (k == 0)
+    {
+        s->options.maps = l->options.maps;
+        s->options.map_count = l->options.map_count;
+        s->options.height_range = l->options.height_range;
+        s->options.height_middle = l->options.height_middle;
+    }
     OTX_TRY(otx_exemplar_handle_read(
         l->call->context, path, &s->options, &s->cuts,
         l->options.without_figures != 0, &l->exemplars[k]));

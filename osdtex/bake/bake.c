@@ -49,6 +49,27 @@ put_batch(const job *j)
     return OSDTEX_OK;
 }
 
+/* A plane for each kind of map. */
+static bool
+make_planes(
+    const otx_bake *bake, otx_arena *scratch,
+    float *planes[OTX_COMPANION_COUNT])
+{
+    for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
+    {
+        const bool is_there =
+            bake->maps.texels.channels > 0 && bake->maps.first[k] >= 0;
+        const int32_t channels = otx_companion_channels((otx_companion_kind)k);
+
+        planes[k] =
+            is_there ? OTX_NEW(scratch, float, BLOCK_TEXELS *(size_t)channels)
+                     : NULL;
+        if (is_there && !planes[k])
+            return false;
+    }
+    return true;
+}
+
 static otx_status
 make_block(job *j, int32_t i, otx_worker *worker)
 {
@@ -61,14 +82,23 @@ make_block(job *j, int32_t i, otx_worker *worker)
         .x = (int32_t)(index % j->mip->columns),
         .y = (int32_t)(index / j->mip->columns),
         .pixels = pixels};
+    float *planes[OTX_COMPANION_COUNT];
 
-    if (!pixels || !otx_texel_bake(
-                       &j->bake->source, j->mip, block.x, block.y,
-                       worker->scratch, pixels))
+    if (!pixels || !make_planes(j->bake, worker->scratch, planes) ||
+        !otx_texel_bake(
+            &j->bake->source,
+            j->bake->maps.texels.channels > 0 ? &j->bake->maps : NULL, j->mip,
+            block.x, block.y, worker->scratch, pixels, planes))
         return OSDTEX_ERROR_MEMORY;
     block.width = otx_mip_block_size(j->mip, block.x);
     block.height = otx_mip_block_size(j->mip, block.y);
     block.stride = (ptrdiff_t)block.width * channels;
+    for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
+    {
+        block.maps[k] = planes[k];
+        block.map_strides[k] =
+            block.width * otx_companion_channels((otx_companion_kind)k);
+    }
     j->sink->take(j->sink->user, j->next.slot + i, worker->index, &block);
     return OSDTEX_OK;
 }
@@ -262,6 +292,10 @@ otx_bake_create(
         OTX_TRY(otx_texture_create(
             run, run->arena, &exemplars[k].linear, exemplars[k].wrap_x,
             exemplars[k].wrap_y, &out->source.textures[k]));
+    if (options->maps && options->kind == OTX_TEXEL_COLOR)
+        return otx_map_source_create(
+            run, mapping, exemplars, layout, options->normals_y_down,
+            &out->maps);
     return OSDTEX_OK;
 }
 

@@ -21,6 +21,10 @@ typedef struct otx_bake_block
                             * rim */
     const float *pixels;   /* the lower left texel */
     ptrdiff_t stride;      /* floats from a row to the one above */
+    /* Of the maps that are baked with the colour, each by itself: the lower
+     * left texel, values as files have them; NULL where there is none. */
+    const float *maps[OTX_COMPANION_COUNT];
+    ptrdiff_t map_strides[OTX_COMPANION_COUNT];
 } otx_bake_block;
 
 /* Where the blocks go.
@@ -52,15 +56,18 @@ typedef struct otx_bake_options
     /* Texels of level 0 across which patches are blended where they meet, half
      * of them on either side; 0: not at all. */
     double seam_blend;
+    bool maps;           /* also those of the materials, with the colour */
+    bool normals_y_down; /* written as DirectX has them */
 } otx_bake_options;
 
 typedef struct otx_bake
 {
     otx_texel_source source;
+    otx_map_source maps; /* which `source` is not moved apart from */
     double seam_blend;
 } otx_bake;
 
-/* Prepares a bake, in run->arena; borrows all. MEMORY. */
+/* Prepares a bake, in run->arena; borrows all. It may not be moved. MEMORY. */
 otx_status otx_bake_create(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_layout *layout, const otx_bake_options *options, otx_bake *out);

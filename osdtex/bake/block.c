@@ -34,17 +34,22 @@ place(otx_block *b, int32_t x, int32_t y)
     };
 }
 
+bool
+otx_block_forget(otx_block *b, otx_arena *scratch)
+{
+    b->pieces = OTX_NEW(scratch, otx_mip_facet, OTX_BLOCK_PIECES);
+    for (int32_t i = 0; b->pieces && i < OTX_BLOCK_PIECES; ++i)
+        b->pieces[i].id = -1;
+    return b->pieces != NULL;
+}
+
 static bool
 allocate(otx_block *b, otx_arena *scratch)
 {
-    b->pieces = OTX_NEW(scratch, otx_mip_facet, OTX_BLOCK_PIECES);
-    if (!b->pieces || !otx_raster_begin(scratch, &b->raster) ||
-        !otx_raster_near_begin(scratch, &b->raster, &b->near_rim) ||
-        !otx_raster_near_begin(scratch, &b->raster, &b->near_seam))
-        return false;
-    for (int32_t i = 0; i < OTX_BLOCK_PIECES; ++i)
-        b->pieces[i].id = -1;
-    return true;
+    return otx_block_forget(b, scratch) &&
+           otx_raster_begin(scratch, &b->raster) &&
+           otx_raster_near_begin(scratch, &b->raster, &b->near_rim) &&
+           otx_raster_near_begin(scratch, &b->raster, &b->near_seam);
 }
 
 static void

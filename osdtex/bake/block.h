@@ -33,6 +33,10 @@ bool otx_block_draw(
     const otx_texel_source *source, const otx_mip *mip, int32_t x, int32_t y,
     otx_arena *scratch, otx_block *out);
 
+/* Makes facets anew when they are met, for another source. False when memory is
+ * out. */
+bool otx_block_forget(otx_block *block, otx_arena *scratch);
+
 /* Where a walk from a facet to a texel position ends. */
 otx_walk otx_block_walk(
     const otx_block *block, const otx_mip_facet *placed, otx_vec2 texel);

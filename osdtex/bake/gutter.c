@@ -111,7 +111,7 @@ otx_gutter_texel(
         memset(out, 0, (size_t)source->channels * sizeof *out);
         return;
     }
-    if (source->kind != OTX_TEXEL_COLOR)
+    if (!otx_texel_is_filtered(source->kind))
     {
         otx_aov_gutter(block, x, y, &walk, out);
         return;

@@ -38,6 +38,28 @@ set_probes(const otx_show_view *show, double share, otx_mip_facet *placed)
             otx_vec2_scale(share, placed->uv_dy));
 }
 
+/* How maps come into the frame of the texture. */
+static void
+set_carry(const otx_texel_source *source, otx_mip_facet *placed)
+{
+    const otx_carry *carry = source->show.carry;
+    const int32_t *corners = placed->facet.corners;
+    otx_vec2 uvs[3];
+
+    for (int k = 0; k < 3; ++k)
+    {
+        const float *uv = source->mapping->uvs + 2 * (size_t)corners[k];
+
+        uvs[k] = (otx_vec2){uv[0], uv[1]};
+    }
+    placed->carry = otx_carry_matrix_of(
+        carry, corners, uvs, otx_source_of(source->mapping, placed->facet.face),
+        placed->dx, placed->dy);
+    placed->scale = otx_carry_scale(carry, corners, placed->at);
+    placed->scale_dx = otx_carry_scale(carry, corners, placed->dx);
+    placed->scale_dy = otx_carry_scale(carry, corners, placed->dy);
+}
+
 otx_mip_facet
 otx_mip_facet_make(
     const otx_texel_source *source, const otx_mip *mip, double share,
@@ -57,5 +79,7 @@ otx_mip_facet_make(
     placed.uv_dx = otx_mip_facet_mix(source->mapping, &placed.facet, placed.dx);
     placed.uv_dy = otx_mip_facet_mix(source->mapping, &placed.facet, placed.dy);
     set_probes(&source->show, share, &placed);
+    if (source->show.carry)
+        set_carry(source, &placed);
     return placed;
 }

@@ -15,6 +15,8 @@ typedef struct otx_mip_facet
     double at[3], dx[3], dy[3]; /* barycentric: at texel (0, 0), and changes */
     otx_vec2 uv, uv_dx, uv_dy;  /* likewise, in the exemplar */
     otx_texture_probes probes;  /* of a sample */
+    otx_carry_matrix carry;     /* of maps */
+    double scale, scale_dx, scale_dy; /* local, likewise */
     bool is_plain; /* a whole texel is no larger than one of the exemplar */
 } otx_mip_facet;
 

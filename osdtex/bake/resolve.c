@@ -160,9 +160,9 @@ otx_resolve_color(
 
     if (state == TEXEL_WHOLE)
     {
-        otx_sample_probe(
-            source, otx_texel_texture(source, otx_mip_facet_face(home)),
-            &(otx_texture_probes){.count = 1}, uv, out);
+        otx_sample_on_piece(
+            source, otx_block_piece(block, home), 1.0,
+            otx_raster_texel(&block->raster, x, y), out);
         return;
     }
     for (int32_t s = 0; s < n * n; ++s)

@@ -38,6 +38,11 @@ otx_sample_on_piece(
     otx_sample_probe(
         source, placed->texture, &placed->probes, otx_mip_facet_uv(placed, at),
         color);
+    if (source->show.carry)
+        otx_carry_values(
+            source->show.carry, &placed->carry,
+            placed->scale + at.x * placed->scale_dx + at.y * placed->scale_dy,
+            otx_source_of(source->mapping, placed->facet.face), color);
 }
 
 #endif

@@ -39,7 +39,7 @@ shade_texel(picture *p, int32_t x, int32_t y)
     p->owners[i] = chart;
     if (chart < 0)
         otx_gutter_texel(block, x, y, &p->beyond, out);
-    else if (block->source->kind == OTX_TEXEL_COLOR)
+    else if (otx_texel_is_filtered(block->source->kind))
     {
         otx_resolve_color(block, x, y, chart, first, out);
         otx_crossfade_inside(block, x, y, first, out);
@@ -106,30 +106,87 @@ fit_to_lookups(const picture *p, float *pixels)
         }
 }
 
+static bool
+allocate(otx_arena *scratch, picture *p)
+{
+    const size_t texels =
+        (size_t)p->block.raster.width * (size_t)p->block.raster.height;
+    const size_t values = texels * (size_t)p->block.source->channels;
+
+    p->owners = OTX_NEW(scratch, int32_t, texels);
+    p->pixels = OTX_ZNEW(scratch, float, values);
+    p->sharp = OTX_NEW(scratch, float, values);
+    return p->owners && p->pixels && p->sharp;
+}
+
+/* Values of a texel that was shaded, each kind into its plane.
+ *
+ *   at  of the texel in the block without its apron */
+static void
+hand_out(
+    const otx_map_source *maps, float *values, size_t at,
+    float *const planes[OTX_COMPANION_COUNT])
+{
+    otx_map_source_encode(maps, values);
+    for (int32_t kind = 0; kind < OTX_COMPANION_COUNT; ++kind)
+    {
+        const size_t channels =
+            (size_t)otx_companion_channels((otx_companion_kind)kind);
+
+        if (maps->first[kind] >= 0)
+            memcpy(
+                planes[kind] + at * channels, values + maps->first[kind],
+                channels * sizeof *values);
+    }
+}
+
+/* The maps of a block whose faces are drawn: what lies under the samples is the
+ * same. */
+static bool
+bake_maps(
+    const otx_map_source *maps, const otx_block *drawn, otx_arena *scratch,
+    float *const planes[OTX_COMPANION_COUNT])
+{
+    picture p = {.block = *drawn, .beyond = otx_gutter_begin()};
+    otx_block *block = &p.block;
+
+    block->source = &maps->texels;
+    if (!otx_block_forget(block, scratch) || !allocate(scratch, &p))
+        return false;
+    for (int32_t y = 0; y < block->height; ++y)
+        for (int32_t x = 0; x < block->width; ++x)
+        {
+            const int32_t i = x + block->left, j = y + block->below;
+
+            shade_texel(&p, i, j);
+            hand_out(
+                maps,
+                p.pixels + otx_block_index(block, i, j) *
+                               (size_t)maps->texels.channels,
+                (size_t)y * (size_t)block->width + (size_t)x, planes);
+        }
+    return true;
+}
+
 bool
 otx_texel_bake(
-    const otx_texel_source *source, const otx_mip *mip, int32_t x, int32_t y,
-    otx_arena *scratch, float *pixels)
+    const otx_texel_source *source, const otx_map_source *maps,
+    const otx_mip *mip, int32_t x, int32_t y, otx_arena *scratch, float *pixels,
+    float *const planes[OTX_COMPANION_COUNT])
 {
     picture p = {.beyond = otx_gutter_begin()};
 
-    if (!otx_block_draw(source, mip, x, y, scratch, &p.block))
-        return false;
-
-    const size_t texels =
-        (size_t)p.block.raster.width * (size_t)p.block.raster.height;
-    const size_t values = texels * (size_t)source->channels;
-
-    p.owners = OTX_NEW(scratch, int32_t, texels);
-    p.pixels = OTX_ZNEW(scratch, float, values);
-    p.sharp = OTX_NEW(scratch, float, values);
-    if (!p.owners || !p.pixels || !p.sharp)
+    if (!otx_block_draw(source, mip, x, y, scratch, &p.block) ||
+        !allocate(scratch, &p))
         return false;
     shade(&p);
     /* Only texels that are fitted have an apron. */
     if (otx_block_is_fitted(&p.block))
         fit_to_lookups(&p, pixels);
     else
-        memcpy(pixels, p.pixels, values * sizeof *pixels);
-    return true;
+        memcpy(
+            pixels, p.pixels,
+            (size_t)p.block.width * (size_t)p.block.height *
+                (size_t)source->channels * sizeof *pixels);
+    return !maps || bake_maps(maps, &p.block, scratch, planes);
 }

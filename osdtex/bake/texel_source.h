@@ -17,8 +17,18 @@ typedef enum otx_texel_kind
     OTX_TEXEL_STRETCH, /* (L2 stretch, larger / smaller, on the surface) */
     OTX_TEXEL_SEAM,    /* (patches meet in or beside it, 0, on the surface) */
     OTX_TEXEL_SOURCE,  /* (exemplar, u, v, footprint): what is looked up */
-    OTX_TEXEL_KIND_COUNT
+    OTX_TEXEL_KIND_COUNT,
+    /* No file of their own: what else is known of the materials, baked together
+     * with the colour and like it. */
+    OTX_TEXEL_MAPS = OTX_TEXEL_KIND_COUNT
 } otx_texel_kind;
+
+/* Whether a texel is the mean of what its samples show. */
+static inline bool
+otx_texel_is_filtered(otx_texel_kind kind)
+{
+    return kind == OTX_TEXEL_COLOR || kind == OTX_TEXEL_MAPS;
+}
 
 /* What all texels share. */
 typedef struct otx_texel_source
@@ -27,7 +37,7 @@ typedef struct otx_texel_source
     otx_show_view show; /* the mapping, as it is asked */
     const otx_layout *layout;
     const otx_exemplar *exemplars;
-    otx_texture textures[OTX_EXEMPLARS_MAX]; /* their linear pixels */
+    otx_texture textures[OTX_EXEMPLARS_MAX]; /* their linear pixels, or maps */
     otx_texel_kind kind;
     int32_t channels; /* of what is baked */
     /* Of colours: the exemplar's range, which no texel leaves. */

@@ -20,6 +20,14 @@ enum
 static const char *const KINDS[KIND_COUNT] = {
     "", "_patch", "_uv", "_stretch", "_seam", "_source"};
 
+/* What is asked for. */
+typedef struct request
+{
+    const osdtex_bake_options *options;
+    uint32_t maps;         /* bit k: that of kind k */
+    const char *extension; /* of the colour */
+} request;
+
 /* FOLDER/NAMEsuffix; NULL when memory is out. */
 static char *
 beside(const char *cage, const char *suffix)
@@ -49,10 +57,19 @@ is_there(const char *cage, const char *suffix, const char *hash)
 /* All textures of a tile. */
 static bool
 tile_is_done(
-    const char *cage, const osdtex_bake_options *options, long tile,
-    const char *extension, const char *hash)
+    const char *cage, const request *asked, long tile, const char *hash)
 {
+    const osdtex_bake_options *options = asked->options;
     char suffix[SUFFIX_BYTES];
+
+    for (int kind = 0; kind < OSDTEX_MAP_KINDS; ++kind)
+    {
+        snprintf(
+            suffix, sizeof suffix, "_%s.%ld.exr", osdtex_map_kind_name(kind),
+            tile);
+        if ((asked->maps & 1u << kind) && !is_there(cage, suffix, hash))
+            return false;
+    }
 
     for (int kind = 0; kind < KIND_COUNT; ++kind)
     {
@@ -60,7 +77,7 @@ tile_is_done(
             continue;
         snprintf(
             suffix, sizeof suffix, "%s.%ld%s", KINDS[kind], tile,
-            kind == 0 ? extension : ".exr");
+            kind == 0 ? asked->extension : ".exr");
         if (!is_there(cage, suffix, hash))
             return false;
     }
@@ -71,8 +88,7 @@ tile_is_done(
 /* The tiles that a line lists, all of them done and at least one. */
 static bool
 tiles_are_done(
-    const char *cage, const osdtex_bake_options *options, const char *line,
-    const char *extension, const char *hash)
+    const char *cage, const request *asked, const char *line, const char *hash)
 {
     char *end;
     long tile = strtol(line, &end, 10);
@@ -80,7 +96,7 @@ tiles_are_done(
 
     for (; end != line; tile = strtol(line, &end, 10))
     {
-        if (!tile_is_done(cage, options, tile, extension, hash))
+        if (!tile_is_done(cage, asked, tile, hash))
             return false;
         found = true;
         line = end;
@@ -90,9 +106,7 @@ tiles_are_done(
 
 /* The same for the comment at the head of the cage. */
 static bool
-named_tiles_are_done(
-    const char *cage, const osdtex_bake_options *options, const char *extension,
-    const char *hash)
+named_tiles_are_done(const char *cage, const request *asked, const char *hash)
 {
     static const char LEAD[] = "# " OTX_BAKE_OUTPUTS_TILES;
     FILE *file = fopen(cage, "rb");
@@ -104,8 +118,7 @@ named_tiles_are_done(
     {
         if (strncmp(line, LEAD, strlen(LEAD)) != 0)
             continue;
-        done =
-            tiles_are_done(cage, options, line + strlen(LEAD), extension, hash);
+        done = tiles_are_done(cage, asked, line + strlen(LEAD), hash);
         break;
     }
     free(line);
@@ -116,18 +129,18 @@ named_tiles_are_done(
 
 bool
 otx_bake_outputs_are_done(
-    const char *cage, const osdtex_bake_options *options, const char *extension,
-    const char hash[OSDTEX_HASH_BYTES])
+    const char *cage, const osdtex_bake_options *options, uint32_t maps,
+    const char *extension, const char hash[OSDTEX_HASH_BYTES])
 {
+    const request asked = {options, maps, extension};
     const char *of_all = options->udim ? NULL : hash;
 
     return is_there(cage, "_cage.obj", of_all) &&
            is_there(cage, "_cage.mtl", of_all) &&
            is_there(cage, ".usda", of_all) && is_there(cage, ".mtlx", of_all) &&
            (!options->preview_png || is_there(cage, "_preview.mtl", of_all)) &&
-           (options->udim
-                ? tile_is_done(cage, options, options->udim, extension, hash)
-                : named_tiles_are_done(cage, options, extension, hash));
+           (options->udim ? tile_is_done(cage, &asked, options->udim, hash)
+                          : named_tiles_are_done(cage, &asked, hash));
 }
 
 /* ---- names ----------------------------------------------------------------
@@ -162,12 +175,21 @@ is_texture(const char *cage, const char *file)
 
     if (strncasecmp(file, base_of(cage), size) != 0)
         return false;
+    file += size;
     for (int kind = 0; kind < KIND_COUNT; ++kind)
     {
         const size_t length = strlen(KINDS[kind]);
 
-        if (strncasecmp(file + size, KINDS[kind], length) == 0 &&
-            is_tile(file + size + length))
+        if (strncasecmp(file, KINDS[kind], length) == 0 &&
+            is_tile(file + length))
+            return true;
+    }
+    for (int kind = 0; *file == '_' && kind < OSDTEX_MAP_KINDS; ++kind)
+    {
+        const char *name = osdtex_map_kind_name(kind);
+
+        if (strncasecmp(file + 1, name, strlen(name)) == 0 &&
+            is_tile(file + 1 + strlen(name)))
             return true;
     }
     return false;

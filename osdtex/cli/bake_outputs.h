@@ -16,10 +16,11 @@
  * are of tasks of their own.
  *
  *   cage       FOLDER/NAME_cage.obj; the others are beside it
+ *   maps       bit k: the bake has maps of kind k
  *   extension  of the colour's textures: ".exr" or ".png" */
 bool otx_bake_outputs_are_done(
-    const char *cage, const osdtex_bake_options *options, const char *extension,
-    const char hash[OSDTEX_HASH_BYTES]);
+    const char *cage, const osdtex_bake_options *options, uint32_t maps,
+    const char *extension, const char hash[OSDTEX_HASH_BYTES]);
 
 /* Adds the files that a bake writes: the texts, and those textures that are
  * there already, since which tiles there will be is not known yet.

@@ -38,6 +38,25 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "--constraints say; EXEMPLAR goes everywhere else, and "
          "the seams between them run within --set transition=TEXELS of where "
          "they are asked for. =FILE for a name with a ="},
+    [OTX_FLAG_MATERIAL] =
+        {"material", 0, OTX_FLAG_GROUP_MAIN, "FOLDER|PREFIX",
+         "the set of maps in a folder, or of those whose names begin so: "
+         "colour, which stands in the place of EXEMPLAR, normal, roughness, "
+         "height, metalness and occlusion, found by what their files are "
+         "called; all get the same mapping and are written beside the colour"},
+    [OTX_FLAG_MAP] =
+        {"map", 0, OTX_FLAG_GROUP_MAIN, "KIND=FILE,...",
+         "maps by name: normal, normal-dx (y down), roughness, gloss, height, "
+         "metalness, occlusion, or arm, which holds occlusion, roughness and "
+         "metalness"},
+    [OTX_FLAG_HEIGHT_RANGE] =
+        {"height-range", 0, OTX_FLAG_GROUP_MAIN, "UNITS",
+         "scene units from black to white of the height map (default: a "
+         "twentieth of the exemplar's width)"},
+    [OTX_FLAG_HEIGHT_MIDDLE] =
+        {"height-middle", 0, OTX_FLAG_GROUP_MAIN, "VALUE",
+         "what the height map says where the surface stays where it is "
+         "(default .5)"},
     [OTX_FLAG_MASK] =
         {"mask", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "a picture on the cage's own UVs that says where exemplars go: black "

@@ -18,6 +18,10 @@ typedef enum otx_flag_id
     OTX_FLAG_SEED,
     OTX_FLAG_SET,
     OTX_FLAG_ALSO,
+    OTX_FLAG_MATERIAL,
+    OTX_FLAG_MAP,
+    OTX_FLAG_HEIGHT_RANGE,
+    OTX_FLAG_HEIGHT_MIDDLE,
     OTX_FLAG_MASK,
     OTX_FLAG_FIRST_PATCH,
     OTX_FLAG_CONSTRAINTS,
@@ -152,6 +156,8 @@ typedef struct otx_flag_values
     int also_count;
     const char *operands[OTX_FLAG_OPERANDS_MAX];
     int operand_count;
+    const char *maps[OSDTEX_MAP_KINDS]; /* files of the material, as found */
+    int map_count;
     const char *saved; /* NAME.osdtex of --from; NULL none */
     otx_flag_saved of_saved;
     const otx_flag_id *ids; /* the flags of the command */

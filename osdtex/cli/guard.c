@@ -51,6 +51,8 @@ otx_guard_named(
     for (int i = 0; i < values->also_count && status == OSDTEX_OK; ++i)
         status =
             add_file(context, deep, out, otx_also_flags_file(values->also[i]));
+    for (int i = 0; i < values->map_count && status == OSDTEX_OK; ++i)
+        status = add_file(context, deep, out, values->maps[i]);
     if (status == OSDTEX_OK)
         status = add_file(context, deep, out, values->saved);
     /* Operands stand in the place of the first ones. */

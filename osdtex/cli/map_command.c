@@ -11,7 +11,7 @@
 /* The job as the flags ask for it, and what has been made of it so far. */
 typedef struct job
 {
-    otx_flag_values values; /* with the files of the saved mapping */
+    otx_flag_values values; /* with the files of what flags name */
     otx_map_request request;
     bool has_hash;
     char hash[OSDTEX_HASH_BYTES];
@@ -79,6 +79,10 @@ read_saved(otx_session *session, job *j)
     options.to = j->request.exemplar_options.to;
     options.receiver = j->request.exemplar_options.receiver;
     options.without_figures = !j->request.report;
+    options.maps = j->request.exemplar_options.maps;
+    options.map_count = j->request.exemplar_options.map_count;
+    options.height_range = j->request.exemplar_options.height_range;
+    options.height_middle = j->request.exemplar_options.height_middle;
 
     const osdtex_status status = osdtex_mapping_read(
         session->context, values->saved, &options, &j->mapping);
@@ -299,6 +303,7 @@ clean_up(job *j)
     osdtex_mapping_destroy(j->mapping);
     osdtex_surface_destroy(j->surface);
     otx_also_flags_destroy(&j->request.also);
+    otx_material_flags_destroy(&j->request.material);
     osdtex_exemplar_destroy(j->exemplar);
     osdtex_cage_destroy(j->cage);
     otx_saved_files_free(&j->values);
@@ -333,6 +338,10 @@ prepare(otx_session *session, job *j)
 {
     osdtex_status status = otx_saved_files_take(session, &j->values);
 
+    if (status == OSDTEX_OK)
+        status = otx_material_flags_take(
+            session, &j->values, &j->request.exemplar_options,
+            &j->request.material);
     if (status == OSDTEX_OK && j->values.saved &&
         !otx_map_request_name(&j->request))
         status = OSDTEX_ERROR_ARGUMENT;

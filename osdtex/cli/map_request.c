@@ -59,6 +59,18 @@ otx_map_request_name(otx_map_request *r)
     return true;
 }
 
+/* NAME_normal.exr and so on, beside NAME.exr, of the first exemplar. */
+static bool
+name_map(const otx_map_request *r, int index, char out[OTX_MAP_PATH_BYTES])
+{
+    const char *kind = osdtex_map_kind_name(r->material.maps[index].kind);
+    const int base = (int)(strrchr(r->exrs[0], '.') - r->exrs[0]);
+
+    return snprintf(
+               out, OTX_MAP_PATH_BYTES, "%.*s_%s.exr", base, r->exrs[0], kind) <
+           OTX_MAP_PATH_BYTES;
+}
+
 /* NAME.mtl and NAME.exr beside NAME.obj, NAME_cage.obj and NAME_cage.mtl of a
  * bake; what readers would not take becomes `_` there. */
 static bool
@@ -312,11 +324,30 @@ otx_map_request_outputs(const otx_map_request *r, otx_path_list *out)
     }
     for (int k = 0; r->maps && k < r->exr_count; ++k)
         otx_path_list_add(out, r->exrs[k]);
+    for (int i = 0; r->maps && i < r->material.count; ++i)
+    {
+        char path[OTX_MAP_PATH_BYTES];
+
+        if (name_map(r, i, path))
+            otx_path_list_add(out, path);
+    }
     if (r->bakes)
         otx_bake_outputs_list(r->cage_obj, &r->bake_options, out);
     otx_path_list_add(out, r->preview);
     otx_path_list_add(out, r->report);
     otx_path_list_add(out, r->save);
+}
+
+/* Those of the material that are written beside the OBJ. */
+static bool
+maps_are_done(const otx_map_request *r, const char hash[OSDTEX_HASH_BYTES])
+{
+    char path[OTX_MAP_PATH_BYTES];
+
+    for (int i = 0; r->maps && i < r->material.count; ++i)
+        if (!name_map(r, i, path) || !otx_up_to_date_check(path, hash))
+            return false;
+    return true;
 }
 
 bool
@@ -335,7 +366,9 @@ otx_map_request_is_done(
     for (int k = 0; r->maps && k < r->exr_count; ++k)
         if (!otx_up_to_date_check(r->exrs[k], hash))
             return false;
-    return !r->bakes ||
-           otx_bake_outputs_are_done(
-               r->cage_obj, &r->bake_options, texture_extension(r), hash);
+    return maps_are_done(r, hash) &&
+           (!r->bakes || otx_bake_outputs_are_done(
+                             r->cage_obj, &r->bake_options,
+                             otx_material_flags_kinds(&r->material),
+                             texture_extension(r), hash));
 }

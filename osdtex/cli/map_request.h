@@ -4,6 +4,7 @@
 #define OTX_CLI_MAP_REQUEST_H
 
 #include "cli/also_flags.h"
+#include "cli/material_flags.h"
 #include "cli/path_list.h"
 
 enum
@@ -20,6 +21,7 @@ typedef struct otx_map_request
     osdtex_surface_options surface_options;
     osdtex_map_options map_options;
     otx_also_flags also;
+    otx_material_flags material;
     osdtex_setting settings[OTX_FLAG_SETTINGS_MAX + 1];
     osdtex_bake_options bake_options;
     bool maps, bakes; /* which files are asked for */

@@ -595,6 +595,9 @@ otx_exemplar_crop(
     OTX_TRY(crop(run, &from->linear, x, y, width, height, &made.linear));
     OTX_TRY(crop(run, &from->match, x, y, width, height, &made.match));
     OTX_TRY(crop(run, &from->lab, x, y, width, height, &made.lab));
+    OTX_TRY(otx_companions_crop(
+        run, &from->companions, from->linear.width,
+        (const int32_t[]){x, y, width, height}, &made.companions));
     OTX_TRY(measure_both(run, rows, &made));
     if (width < from->lab.width && made.lab.pixels)
     {
@@ -644,6 +647,9 @@ otx_exemplar_rearrange(
     OTX_TRY(rearrange(run, &from->linear, texels, &made.linear));
     OTX_TRY(rearrange(run, &from->match, texels, &made.match));
     OTX_TRY(rearrange(run, &from->lab, texels, &made.lab));
+    OTX_TRY(otx_companions_rearrange(
+        run, &from->companions, from->linear.width, from->linear.height, texels,
+        &made.companions));
     OTX_TRY(measure_both(run, rows, &made));
     made.wrap_x = made.wrap_y = true;
     *out = made;

@@ -9,6 +9,7 @@
 
 #include "colour/embedding.h"
 #include "colour/receiver.h"
+#include "exemplar/companions.h"
 #include "image/image.h"
 #include "image/tile_layout.h"
 
@@ -34,11 +35,12 @@ typedef struct otx_exemplar
     const char *match_space;
     const char *interop_id; /* colorInteropID of linear_space, NULL unknown */
     bool has_chromaticities;
-    float chromaticities[8]; /* of linear_space: R, G, B, W xy pairs */
-    otx_embedding embedding; /* of `match` */
-    otx_receiver receiver;   /* for whom `linear` is written */
-    bool as_png;             /* and how, see otx_receiver_choice */
-    otx_tile_layout tiles;   /* of a tiled texture; else `cell` is 0 */
+    float chromaticities[8];   /* of linear_space: R, G, B, W xy pairs */
+    otx_embedding embedding;   /* of `match` */
+    otx_receiver receiver;     /* for whom `linear` is written */
+    bool as_png;               /* and how, see otx_receiver_choice */
+    otx_tile_layout tiles;     /* of a tiled texture; else `cell` is 0 */
+    otx_companions companions; /* the other maps of its set */
 } otx_exemplar;
 
 typedef enum otx_exemplar_wrap

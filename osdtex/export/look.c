@@ -4,6 +4,7 @@
 #include "export/corner_normals.h"
 
 #include "export/cage_model.h"
+#include "export/companion_files.h"
 #include "export/names.h"
 #include "export/texture_file.h"
 #include "file/exr.h"
@@ -101,13 +102,21 @@ color_name(const writer *w)
 /* ---- textures --------------------------------------------------------------
  */
 
-/* Where blocks go: into the EXR, and those of one level into the preview. */
+/* A file and what is packed for it. */
+typedef struct stream
+{
+    otx_exr_writer *exr; /* NULL none */
+    otx_exr_chunk chunks[OTX_BAKE_SLOTS];
+} stream;
+
+/* Where blocks go: into the EXR, those of one level into the preview, and their
+ * maps into files of their own. */
 typedef struct target
 {
-    otx_exr_writer *exr;   /* NULL: nowhere but there */
+    stream color;
     int32_t preview_level; /* -1 none */
     otx_image preview;
-    otx_exr_chunk chunks[OTX_BAKE_SLOTS];
+    stream maps[OTX_COMPANION_COUNT];
 } target;
 
 static void
@@ -117,10 +126,23 @@ take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 
     if (block->level == t->preview_level)
         otx_bake_copy(block, &t->preview);
-    if (t->exr)
+    if (t->color.exr)
         otx_exr_pack(
-            t->exr, lane, block->level, block->x, block->y, block->pixels,
-            block->stride, &t->chunks[slot]);
+            t->color.exr, lane, block->level, block->x, block->y, block->pixels,
+            block->stride, &t->color.chunks[slot]);
+    for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
+        if (t->maps[k].exr)
+            otx_exr_pack(
+                t->maps[k].exr, lane, block->level, block->x, block->y,
+                block->maps[k], block->map_strides[k],
+                &t->maps[k].chunks[slot]);
+}
+
+static otx_status
+put_one(stream *s, int32_t slot, int32_t level, int32_t x, int32_t y)
+{
+    return s->exr ? otx_exr_put(s->exr, level, x, y, &s->chunks[slot])
+                  : OSDTEX_OK;
 }
 
 static otx_status
@@ -128,8 +150,10 @@ put(void *user, int32_t slot, int32_t level, int32_t x, int32_t y)
 {
     target *t = user;
 
-    return t->exr ? otx_exr_put(t->exr, level, x, y, &t->chunks[slot])
-                  : OSDTEX_OK;
+    OTX_TRY(put_one(&t->color, slot, level, x, y));
+    for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
+        OTX_TRY(put_one(&t->maps[k], slot, level, x, y));
+    return OSDTEX_OK;
 }
 
 /* Into a target, and which part of all that is baked a tile of a kind is. */
@@ -158,13 +182,13 @@ sink_of(const writer *w, otx_texel_kind kind, int32_t tile, target *t)
 
 /* Room for what is taken and not yet put. */
 static otx_status
-make_slots(otx_run *run, target *t)
+make_slots(otx_run *run, stream *s)
 {
-    const size_t bytes = otx_exr_packed_bytes(t->exr);
+    const size_t bytes = otx_exr_packed_bytes(s->exr);
 
     for (int32_t i = 0; i < OTX_BAKE_SLOTS; ++i)
     {
-        t->chunks[i].bytes = OTX_NEW(run->scratch, uint8_t, bytes);
+        s->chunks[i].bytes = OTX_NEW(run->scratch, uint8_t, bytes);
         OTX_TRY(otx_run_ok(run));
     }
     return OSDTEX_OK;
@@ -226,62 +250,110 @@ write_preview(const writer *w, int32_t tile, otx_image *image)
     return otx_png_file_write(w->run, w->set, path, image, 8);
 }
 
-/* Bakes the colour of one tile into an 8-bit PNG and nothing else. */
+/* Begins the file `path` of a tile. */
 static otx_status
-write_png_tile(const writer *w, const otx_bake *bake, int32_t tile)
+begin_stream(
+    const writer *w, const char *path, int32_t channels,
+    otx_exr_options options, stream *s)
+{
+    const otx_exr_attribute comment = {
+        .name = "comments",
+        .kind = OTX_EXR_TEXT,
+        .text = w->options->texture_comment};
+    const int32_t side = w->layout->side;
+
+    OTX_TRY(otx_run_ok(w->run));
+    options.attributes = &comment;
+    options.attribute_count = comment.text != NULL;
+    OTX_TRY(otx_exr_begin(
+        w->run, w->set, path, (otx_exr_size){side, side, channels}, &options,
+        &s->exr));
+    return make_slots(w->run, s);
+}
+
+/* The files of the maps that are baked with the colour. */
+static otx_status
+begin_maps(const writer *w, const otx_bake *bake, int32_t tile, target *t)
+{
+    for (int32_t k = 0;
+         bake->maps.texels.channels > 0 && k < OTX_COMPANION_COUNT; ++k)
+    {
+        const otx_companion_kind kind = (otx_companion_kind)k;
+        char suffix[SUFFIX_BYTES];
+
+        if (bake->maps.first[k] < 0)
+            continue;
+        snprintf(
+            suffix, sizeof suffix, "_%s.%" PRId32 ".exr",
+            otx_companion_name(kind), w->layout->tiles[tile]);
+        OTX_TRY(begin_stream(
+            w, path_of(w, suffix), otx_companion_channels(kind),
+            otx_companion_files_options(kind), &t->maps[k]));
+    }
+    return OSDTEX_OK;
+}
+
+static otx_status
+end_maps(target *t)
+{
+    for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
+        if (t->maps[k].exr)
+            OTX_TRY(otx_exr_end(t->maps[k].exr));
+    return OSDTEX_OK;
+}
+
+/* Bakes the colour of one tile into an 8-bit PNG, and its maps. */
+static otx_status
+write_png_tile(const writer *w, const otx_bake *bake, int32_t tile, target *t)
 {
     const int32_t side = w->layout->side;
-    target t = {.preview_level = 0};
-    otx_bake_sink sink = sink_of(w, OTX_TEXEL_COLOR, tile, &t);
+    otx_bake_sink sink = sink_of(w, OTX_TEXEL_COLOR, tile, t);
     char suffix[SUFFIX_BYTES];
     const char *path;
 
-    sink.level_count = 1;
+    /* Maps are files with all levels. */
+    sink.level_count = bake->maps.texels.channels > 0 ? 0 : 1;
     tile_suffix(OTX_TEXEL_COLOR, w->layout->tiles[tile], ".png", suffix);
     path = path_of(w, suffix);
     OTX_TRY(otx_run_ok(w->run));
     OTX_TRY(otx_image_create(
         w->run, w->run->scratch, side, side, bake->source.channels,
-        &t.preview));
+        &t->preview));
+    t->preview_level = 0;
+    OTX_TRY(begin_maps(w, bake, tile, t));
     OTX_TRY(otx_bake_tile(w->run, bake, tile, &sink));
-    return otx_texture_file_write_png(w->run, w->set, path, &t.preview);
+    OTX_TRY(end_maps(t));
+    return otx_texture_file_write_png(w->run, w->set, path, &t->preview);
 }
 
-/* Bakes one kind of one tile into its file. */
+/* Bakes one kind of one tile into its file, with the colour its maps. */
 static otx_status
-write_tile(const writer *w, const otx_bake *bake, int32_t tile, bool preview)
+write_tile(
+    const writer *w, const otx_bake *bake, int32_t tile, bool preview,
+    target *t)
 {
     const otx_texel_kind kind = bake->source.kind;
     const int32_t side = w->layout->side;
-    const otx_exr_attribute comment = {
-        .name = "comments",
-        .kind = OTX_EXR_TEXT,
-        .text = w->options->texture_comment};
-    otx_exr_options options = exr_options(w, kind);
-    const otx_exr_size size = {side, side, bake->source.channels};
-    target t = {.preview_level = -1};
-    const otx_bake_sink sink = sink_of(w, kind, tile, &t);
+    const otx_bake_sink sink = sink_of(w, kind, tile, t);
     char suffix[SUFFIX_BYTES];
-    const char *path;
 
     tile_suffix(kind, w->layout->tiles[tile], ".exr", suffix);
-    path = path_of(w, suffix);
-    OTX_TRY(otx_run_ok(w->run));
     if (preview)
     {
-        for (t.preview_level = 0; side >> t.preview_level > PREVIEW_SIDE;)
-            ++t.preview_level;
+        for (t->preview_level = 0; side >> t->preview_level > PREVIEW_SIDE;)
+            ++t->preview_level;
         OTX_TRY(otx_image_create(
-            w->run, w->run->scratch, side >> t.preview_level,
-            side >> t.preview_level, size.channels, &t.preview));
+            w->run, w->run->scratch, side >> t->preview_level,
+            side >> t->preview_level, bake->source.channels, &t->preview));
     }
-    options.attributes = &comment;
-    options.attribute_count = comment.text != NULL;
-    OTX_TRY(otx_exr_begin(w->run, w->set, path, size, &options, &t.exr));
-    OTX_TRY(make_slots(w->run, &t));
+    OTX_TRY(begin_stream(
+        w, path_of(w, suffix), bake->source.channels, exr_options(w, kind),
+        &t->color));
+    OTX_TRY(begin_maps(w, bake, tile, t));
     OTX_TRY(otx_bake_tile(w->run, bake, tile, &sink));
-    OTX_TRY(otx_exr_end(t.exr));
-    return preview ? write_preview(w, w->layout->tiles[tile], &t.preview)
+    OTX_TRY(otx_exr_end(t->color.exr));
+    OTX_TRY(end_maps(t));
+    return preview ? write_preview(w, w->layout->tiles[tile], &t->preview)
                    : OSDTEX_OK;
 }
 
@@ -290,7 +362,8 @@ write_kind(const writer *w, otx_texel_kind kind)
 {
     const bool preview = kind == OTX_TEXEL_COLOR && w->options->colour;
     const bool as_png = kind == OTX_TEXEL_COLOR && w->exemplars->as_png;
-    const otx_bake_options options = {kind, w->options->seam_blend};
+    const otx_bake_options options = {
+        kind, w->options->seam_blend, true, w->options->normals_y_down};
     otx_bake bake;
 
     OTX_TRY(otx_bake_create(
@@ -298,12 +371,16 @@ write_kind(const writer *w, otx_texel_kind kind)
     for (int32_t tile = 0; tile < w->layout->tile_count; ++tile)
     {
         const otx_arena_mark mark = otx_arena_here(w->run->scratch);
+        target *t = OTX_ZNEW(w->run->scratch, target, 1);
         otx_status status;
 
+        if (!t)
+            return otx_fail_memory(w->run, STAGE);
+        t->preview_level = -1;
         if (w->options->udim != 0 && w->layout->tiles[tile] != w->options->udim)
             continue;
-        status = as_png ? write_png_tile(w, &bake, tile)
-                        : write_tile(w, &bake, tile, preview);
+        status = as_png ? write_png_tile(w, &bake, tile, t)
+                        : write_tile(w, &bake, tile, preview, t);
         otx_arena_release(w->run->scratch, mark);
         OTX_TRY(status);
     }

@@ -6,6 +6,8 @@
  *     NAME.usda, NAME.mtlx           the same cage and look with what OBJ and
  *                                    MTL cannot say
  *
+ *     NAME_normal.1001.exr, …       the other maps of the exemplars' materials
+ *
  * and on request NAME.1001.png with NAME_preview.mtl for what reads no EXR, and
  * NAME_patch.1001.exr and the like. All of them appear together or not at all.
  * See docs/notes/bake.md and docs/pipeline.md. */
@@ -25,6 +27,7 @@ typedef struct otx_look_options
     const char *texture_comment;       /* for the textures; NULL none */
     double meters_per_unit;            /* of NAME.usda; 0: by the receiver */
     bool z_up;                         /* of NAME.usda */
+    bool normals_y_down; /* baked normal maps are written as DirectX has them */
     bool normals; /* of the limit surface in NAME_cage.obj, and of a plain mesh
                    * in NAME.usda; those of the mesh are mesh->normals */
     /* What is written of the refined mesh, together with the rest; its path and

@@ -2,6 +2,7 @@
 #include "export/model.h"
 
 #include "export/cage_model.h"
+#include "export/companion_files.h"
 #include "export/corner_normals.h"
 #include "export/names.h"
 #include "export/texture_file.h"
@@ -440,9 +441,9 @@ write_mtl(
  * waits for it finds the others. */
 static otx_status
 write_files(
-    otx_run *run, const otx_names *names, const otx_obj *obj,
-    const material_list *materials, const otx_exemplar *exemplars,
-    const otx_model_options *options)
+    otx_run *run, const otx_mapping *mapping, const otx_names *names,
+    const otx_obj *obj, const material_list *materials,
+    const otx_exemplar *exemplars, const otx_model_options *options)
 {
     otx_atomic_file_set *set = options->set;
 
@@ -453,6 +454,11 @@ write_files(
         OTX_TRY(otx_texture_file_write(
             run, set, names->textures[k], &exemplars[k], &exemplars[k].linear,
             &exemplars[k].tiles));
+    for (int32_t k = 0; !options->without_image && k < names->texture_count;
+         ++k)
+        OTX_TRY(otx_companion_files_write(
+            run, set, names->textures[k], &exemplars[k],
+            otx_source_unit(mapping, exemplars, k).x));
     OTX_TRY(write_mtl(run, set, names, obj, materials));
     OTX_TRY(write_obj(run, set, names, obj, options));
     return options->set ? OSDTEX_OK : otx_atomic_file_commit(run, set, true);
@@ -477,7 +483,8 @@ otx_model_write(
     status =
         describe_obj(run, mapping, &names, options->normals, &obj, &materials);
     if (status == OSDTEX_OK)
-        status = write_files(run, &names, &obj, &materials, exemplars, options);
+        status = write_files(
+            run, mapping, &names, &obj, &materials, exemplars, options);
     otx_arena_release(run->scratch, mark);
     if (status != OSDTEX_OK)
         return status;

@@ -1,9 +1,9 @@
 /* exr.h -- OpenEXR files through OpenEXR's C core.
  *
  * Reading is by picture.h. Writing gives one part with the channels R, G, B
- * (and A), ZIP compressed. A *texture* is tiled 64 x 64 and mip-mapped with
- * sizes rounded down; a *render* is scanlines. The same input gives the same
- * bytes: no dates, no host, chunks in order. */
+ * (and A) or Y, ZIP compressed. A *texture* is tiled 64 x 64 and mip-mapped
+ * with sizes rounded down; a *render* is scanlines. The same input gives the
+ * same bytes: no dates, no host, chunks in order. */
 #ifndef OTX_FILE_EXR_H
 #define OTX_FILE_EXR_H
 
@@ -60,7 +60,7 @@ otx_exr_options_default(void)
     return (otx_exr_options){.tiled = true};
 }
 
-/* Writes `image` (3 or 4 channels) as the file `path` of `set`, which the
+/* Writes `image` (1, 3 or 4 channels) as the file `path` of `set`, which the
  * caller commits. Finite values beyond 65504 are clamped to it in half files,
  * with a note. ARGUMENT, NUMERIC (a value is not finite), IO, MEMORY. */
 otx_status otx_exr_write(
@@ -74,7 +74,7 @@ typedef struct otx_exr_writer otx_exr_writer;
 typedef struct otx_exr_size
 {
     int32_t width, height;
-    int32_t channels; /* 3 or 4 */
+    int32_t channels; /* 1, 3 or 4 */
 } otx_exr_size;
 
 /* Adds `path` to `set` and writes its header. The writer lives in run->scratch

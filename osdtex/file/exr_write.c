@@ -107,6 +107,7 @@ static exr_result_t
 write_layout(otx_exr_writer *w)
 {
     static const char *const names[4] = {"A", "B", "G", "R"};
+    const bool is_gray = w->size.channels == 1;
     exr_result_t code;
     int part;
 
@@ -123,7 +124,7 @@ write_layout(otx_exr_writer *w)
     for (int32_t i = 4 - w->size.channels; i < 4; ++i)
         if (code == EXR_ERR_SUCCESS)
             code = exr_add_channel(
-                w->file, part, names[i], pixel_type(w),
+                w->file, part, is_gray ? "Y" : names[i], pixel_type(w),
                 EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     return code;
 }
@@ -359,11 +360,11 @@ check_size(otx_run *run, const char *path, otx_exr_size size)
 {
     if (size.width < 1 || size.width > OTX_IMAGE_MAX_SIDE || size.height < 1 ||
         size.height > OTX_IMAGE_MAX_SIDE ||
-        (size.channels != 3 && size.channels != 4))
+        (size.channels != 1 && size.channels != 3 && size.channels != 4))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "picture", otx_where_file(path),
-            "an EXR has 1 to %d pixels a side and 3 or 4 channels, not %d x "
-            "%d and %d",
+            "an EXR has 1 to %d pixels a side and 1, 3 or 4 channels, not "
+            "%d x %d and %d",
             OTX_IMAGE_MAX_SIDE, size.width, size.height, size.channels);
     return OSDTEX_OK;
 }

@@ -101,6 +101,29 @@ probe(
     otx_texture_probe(texture, &probes, term->uv, values);
 }
 
+/* The values of a map in the frame of the place. */
+static void
+carry_over(
+    const otx_show_view *show, const otx_show_place *place,
+    const otx_show_term *term, float *values)
+{
+    const otx_carry *carry = show->carry;
+    otx_carry_matrix m;
+    otx_vec2 uvs[3];
+
+    for (int k = 0; k < 3; ++k)
+    {
+        const double corner[3] = {k == 0, k == 1, k == 2};
+
+        uvs[k] = otx_show_mix(show, place, term, corner);
+    }
+    m = otx_carry_matrix_of(
+        carry, place->corners, uvs, term->exemplar, place->dx, place->dy);
+    otx_carry_values(
+        carry, &m, otx_carry_scale(carry, place->corners, place->at),
+        term->exemplar, values);
+}
+
 void
 otx_show_color(
     const otx_show_view *show, const otx_texture *textures,
@@ -123,13 +146,15 @@ otx_show_color(
         probe(show, texture, place, &term, share, color);
         for (int32_t c = texture->pyramid.levels[0].channels; c < channels; ++c)
             color[c] = 1.0f;
+        if (show->carry)
+            carry_over(show, place, &term, color);
         if (!layered)
             return;
         if (term.mask)
             probe(show, term.mask, place, &term, share, mask);
         otx_show_add(
             layering, color, channels, term.weight * mask[0],
-            channels == 4 ? color[3] : 1.0, &sum);
+            channels == 4 && !show->carry ? color[3] : 1.0, &sum);
     }
     otx_show_finish(layering, &sum, channels, color);
 }

@@ -8,6 +8,7 @@
 #ifndef OTX_MAPPING_SHOW_H
 #define OTX_MAPPING_SHOW_H
 
+#include "mapping/carry.h"
 #include "mapping/mapping.h"
 #include "mapping/source.h"
 
@@ -38,6 +39,10 @@ typedef struct otx_show_view
     const float *uvs;           /* [corner_count * 2] */
     const int32_t *face_first;  /* [face_count + 1] */
     const otx_lookups *lookups; /* NULL nowhere */
+    /* What is looked up are the maps of materials: how their values come into
+     * the frame that a place's dx and dy are in, which it must have. NULL:
+     * colours. */
+    const otx_carry *carry;
 } otx_show_view;
 
 static inline otx_show_view
@@ -45,7 +50,7 @@ otx_show_of(const otx_mapping *mapping)
 {
     return (otx_show_view){
         mapping->uvs, otx_surface_leaf(mapping->surface)->face_first,
-        mapping->lookups};
+        mapping->lookups, NULL};
 }
 
 /* Whether a face shows anything but what its own UVs look up. */
@@ -110,9 +115,9 @@ void otx_show_finish(
 
 /* Colour around a place of a face, filtered over `share` of its footprint:
  * `channels` of them, of which a picture that has fewer lacks alpha and is
- * opaque.
+ * opaque. Of maps all values, carried over and not yet of length 1.
  *
- *   textures  by exemplar
+ *   textures  by exemplar: their colours, or their maps
  *   exemplar  that the face's patch is from */
 void otx_show_color(
     const otx_show_view *show, const otx_texture *textures,

@@ -175,7 +175,8 @@ texture_color(const otx_shade *shade, const otx_hit *hit, float rgb[3])
 {
     const otx_scene *scene = shade->scene;
     const otx_camera_frame *frame = &shade->frame;
-    const otx_show_view show = {scene->uvs, scene->face_first, scene->lookups};
+    const otx_show_view show = {
+        scene->uvs, scene->face_first, scene->lookups, NULL};
     const int32_t t = scene->face_texture ? scene->face_texture[hit->face] : 0;
     const double share = 1.0 / shade->options->samples;
     float color[OTX_IMAGE_MAX_CHANNELS];

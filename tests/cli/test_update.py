@@ -28,7 +28,8 @@ CHANGED = {
     "from": "Linear Rec.709", "to": "ACEScg", "match-space": "sRGB",
     "match-in": "lab", "wrap": "no", "tileable": "make", "show": "uv",
     "weld": "0.1", "layer": "beauty", "normals": None, "units": "mm",
-    "up": "z",
+    "up": "z", "material": "m", "map": "height=m.png", "height-range": "2",
+    "height-middle": "0",
 }
 APART = {"output", "preview", "json-report", "save", "threads", "memory-limit",
          "colorconfig", "dry-run", "update", "replace", "verbose", "quiet",

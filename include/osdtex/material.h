@@ -1,0 +1,65 @@
+/* material.h -- the files of a material: its colour and what else is known of
+ * it, texel by texel. */
+#ifndef OSDTEX_MATERIAL_H
+#define OSDTEX_MATERIAL_H
+
+#include <osdtex/context.h>
+
+OSDTEX_BEGIN_DECLS
+
+/* What a map says. All are data, which no colour is made of. */
+typedef int32_t osdtex_map_kind;
+enum
+{
+    OSDTEX_MAP_NORMAL = 0,
+    OSDTEX_MAP_ROUGHNESS = 1,
+    OSDTEX_MAP_HEIGHT = 2,
+    OSDTEX_MAP_METALNESS = 3,
+    OSDTEX_MAP_OCCLUSION = 4,
+    OSDTEX_MAP_KINDS = 5
+};
+
+/* A map that lies on an exemplar's picture: of its size, or a whole number of
+ * times as large or as small. */
+typedef struct osdtex_companion
+{
+    const char *path;
+    osdtex_map_kind kind;
+    int32_t channel;  /* of the file, from 0: red; of normals the first of
+                       * three */
+    int32_t y_down;   /* of normals: 1 where green points down, as DirectX has
+                       * it */
+    int32_t inverted; /* 1: it is 1 less what the file says, as gloss is to
+                       * roughness */
+} osdtex_companion;
+
+/* "normal", "roughness", "height", "metalness", "occlusion", as files are
+ * called; NULL for no kind. */
+OSDTEX_API const char *osdtex_map_kind_name(osdtex_map_kind kind);
+
+typedef struct osdtex_material osdtex_material;
+
+/* What is read as an exemplar: the colour, and beside it the maps. */
+typedef struct osdtex_material_info
+{
+    const char *color;
+    const osdtex_companion *maps; /* [map_count] */
+    int32_t map_count;
+    int32_t reserved;
+} osdtex_material_info;
+
+/* Finds the files of a material by their names (docs/materials.md).
+ *
+ *   text  a folder, or FOLDER/PREFIX with what their names begin with
+ *
+ * IO (no such folder), FORMAT (no colour, or two files that could be one map),
+ * ARGUMENT, MEMORY. */
+OSDTEX_API osdtex_status osdtex_material_find(
+    osdtex_context *context, const char *text, osdtex_material **out);
+OSDTEX_API const osdtex_material_info *
+osdtex_material_describe(const osdtex_material *material);
+OSDTEX_API void osdtex_material_destroy(osdtex_material *material);
+
+OSDTEX_END_DECLS
+
+#endif

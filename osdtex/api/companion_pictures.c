@@ -1,0 +1,146 @@
+/* companion_pictures.c -- the other maps of a material, from their files. */
+#include "api/companion_pictures.h"
+
+#include "api/picture_source.h"
+#include "base/hash.h"
+#include "file/picture.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char STAGE[] = "material";
+
+/* Files that are read, each once however many maps it holds. */
+typedef struct pictures
+{
+    otx_run aside;
+    otx_picture list[OTX_COMPANION_COUNT];
+    char hashes[OTX_COMPANION_COUNT][OTX_HASH_TEXT_BYTES];
+} pictures;
+
+static otx_status
+check(otx_run *run, const osdtex_exemplar_options *options)
+{
+    if (options->map_count < 0 || options->map_count > OSDTEX_MAP_KINDS ||
+        (options->map_count > 0 && !options->maps))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "a material has up to %d maps besides its colour, one of a kind",
+            OSDTEX_MAP_KINDS);
+    if (!(options->height_range >= 0.0) || isinf(options->height_range) ||
+        !isfinite(options->height_middle))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "heights reach over a positive number of scene units, not %g",
+            options->height_range);
+    for (int32_t i = 0; i < options->map_count; ++i)
+    {
+        const osdtex_companion *map = &options->maps[i];
+
+        if (!map->path || map->kind < 0 || map->kind >= OSDTEX_MAP_KINDS ||
+            map->channel < 0 || map->channel > 3 ||
+            (map->kind == OSDTEX_MAP_NORMAL && map->channel != 0))
+            return otx_fail(
+                run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+                "a map of the material has no path, or is of no kind or "
+                "channel that there is");
+    }
+    return OSDTEX_OK;
+}
+
+/* The file of map i, or what an earlier map has of it. */
+static otx_status
+read_file(pictures *p, const osdtex_companion *maps, int32_t i)
+{
+    for (int32_t k = 0; k < i; ++k)
+        if (strcmp(maps[k].path, maps[i].path) == 0)
+        {
+            p->list[i] = p->list[k];
+            memcpy(p->hashes[i], p->hashes[k], sizeof p->hashes[i]);
+            return OSDTEX_OK;
+        }
+    OTX_TRY(otx_picture_read(&p->aside, maps[i].path, &p->list[i]));
+    if (!otx_hash_file(maps[i].path, p->hashes[i]))
+        p->hashes[i][0] = '\0';
+    return OSDTEX_OK;
+}
+
+static otx_status
+describe(
+    otx_run *run, const pictures *p, const osdtex_companion *maps, int32_t i,
+    otx_companion_input *out)
+{
+    const otx_picture *picture = &p->list[i];
+
+    if (maps[i].channel >= picture->image.channels ||
+        (picture->is_gray && maps[i].channel > 0))
+        return otx_fail(
+            run, OSDTEX_ERROR_FORMAT, STAGE, otx_where_file(maps[i].path),
+            "the %s map is to be channel %d, and the picture has %d",
+            otx_companion_name((otx_companion_kind)maps[i].kind),
+            maps[i].channel + 1,
+            picture->is_gray ? 1 : picture->image.channels);
+    *out = (otx_companion_input){
+        .kind = (otx_companion_kind)maps[i].kind,
+        .pixels = picture->image,
+        .is_gray = picture->is_gray,
+        .is_float = picture->is_float,
+        .bits = picture->bits,
+        .channel = maps[i].channel,
+        .y_down = maps[i].y_down != 0,
+        .is_inverted = maps[i].inverted != 0,
+        .path = maps[i].path,
+        .hash = p->hashes[i][0] ? p->hashes[i] : NULL,
+        .type = otx_picture_source_type(picture),
+    };
+    return OSDTEX_OK;
+}
+
+/* What was found, for the eye. */
+static void
+say(otx_run *run, const otx_companion_input *in)
+{
+    static const char *const channels[] = {"red", "green", "blue", "alpha"};
+    const bool is_normal = in->kind == OTX_COMPANION_NORMAL;
+
+    otx_note(
+        run, OSDTEX_SEVERITY_INFO, STAGE, otx_where_file(in->path),
+        "%s map, %d x %d, %s, data%s%s%s%s", otx_companion_name(in->kind),
+        in->pixels.width, in->pixels.height, in->type,
+        is_normal ? in->y_down ? ", y down (DirectX)" : ", y up (OpenGL)" : "",
+        !is_normal && !in->is_gray ? ", from " : "",
+        !is_normal && !in->is_gray ? channels[in->channel] : "",
+        in->is_inverted ? ", 1 less what it says (gloss)" : "");
+}
+
+otx_status
+otx_companion_pictures_take(
+    otx_call *call, const osdtex_exemplar_options *options,
+    otx_exemplar *exemplar)
+{
+    otx_run *run = &call->run;
+    const otx_image *color = &exemplar->linear;
+    otx_companion_input inputs[OTX_COMPANION_COUNT];
+    otx_companions *out = &exemplar->companions;
+    pictures *p;
+
+    OTX_TRY(check(run, options));
+    if (options->map_count == 0)
+        return OSDTEX_OK;
+    p = OTX_ZNEW(run->scratch, pictures, 1);
+    if (!p)
+        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_call_aside(call, &p->aside));
+    for (int32_t i = 0; i < options->map_count; ++i)
+    {
+        OTX_TRY(read_file(p, options->maps, i));
+        OTX_TRY(describe(run, p, options->maps, i, &inputs[i]));
+        say(run, &inputs[i]);
+    }
+    OTX_TRY(otx_companions_build(
+        run, inputs, options->map_count, color->width, color->height,
+        exemplar->wrap_x, exemplar->wrap_y, out));
+    out->height_range = options->height_range;
+    out->height_middle = options->height_middle;
+    return OSDTEX_OK;
+}

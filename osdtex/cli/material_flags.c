@@ -1,0 +1,186 @@
+/* material_flags.c -- --material FOLDER|PREFIX, --map KIND=FILE,..., and
+ * --height-range. */
+#include "cli/material_flags.h"
+
+#include "cli/value.h"
+
+#include <string.h>
+
+/* Words of --map. A packed file is three maps. */
+static const struct
+{
+    const char *word;
+    osdtex_companion map;
+} WORDS[] = {
+    {"normal", {NULL, OSDTEX_MAP_NORMAL, 0, 0, 0}},
+    {"normal-dx", {NULL, OSDTEX_MAP_NORMAL, 0, 1, 0}},
+    {"roughness", {NULL, OSDTEX_MAP_ROUGHNESS, 0, 0, 0}},
+    {"gloss", {NULL, OSDTEX_MAP_ROUGHNESS, 0, 0, 1}},
+    {"height", {NULL, OSDTEX_MAP_HEIGHT, 0, 0, 0}},
+    {"metalness", {NULL, OSDTEX_MAP_METALNESS, 0, 0, 0}},
+    {"occlusion", {NULL, OSDTEX_MAP_OCCLUSION, 0, 0, 0}},
+    {"arm", {NULL, OSDTEX_MAP_OCCLUSION, 0, 0, 0}},
+    {"arm", {NULL, OSDTEX_MAP_ROUGHNESS, 1, 0, 0}},
+    {"arm", {NULL, OSDTEX_MAP_METALNESS, 2, 0, 0}},
+};
+
+/* In the place of one of its kind, if there is one. */
+static void
+put(otx_material_flags *out, osdtex_companion map)
+{
+    int i = 0;
+
+    while (i < out->count && out->maps[i].kind != map.kind)
+        ++i;
+    out->maps[i] = map;
+    out->count += i == out->count;
+}
+
+/* KIND=FILE, cut off from the rest. */
+static bool
+take_map(const char *item, const char *all, otx_material_flags *out)
+{
+    const char *equals = strchr(item, '=');
+    const size_t length = equals ? (size_t)(equals - item) : 0;
+    bool known = false;
+
+    for (size_t i = 0; equals && i < sizeof WORDS / sizeof *WORDS; ++i)
+    {
+        osdtex_companion map = WORDS[i].map;
+
+        if (strlen(WORDS[i].word) != length ||
+            strncmp(WORDS[i].word, item, length) != 0)
+            continue;
+        map.path = equals + 1;
+        put(out, map);
+        known = true;
+    }
+    if (known && equals[1])
+        return true;
+    otx_session_refuse(
+        "--map takes KIND=FILE with commas between, of the kinds normal, "
+        "normal-dx, roughness, gloss, height, metalness, occlusion and arm, "
+        "not '%s'",
+        all);
+    return false;
+}
+
+static bool
+take_maps(const otx_flag_values *values, otx_material_flags *out)
+{
+    const char *all = values->text[OTX_FLAG_MAP];
+    char *item = out->text;
+
+    if (!all)
+        return true;
+    if (strlen(all) >= sizeof out->text)
+    {
+        otx_session_refuse("the files that --map names are too many");
+        return false;
+    }
+    strcpy(out->text, all);
+    for (char *next; item; item = next)
+    {
+        next = strchr(item, ',');
+        if (next)
+            *next++ = '\0';
+        if (!take_map(item, all, out))
+            return false;
+    }
+    return true;
+}
+
+static osdtex_status
+take_found(
+    otx_session *session, otx_flag_values *values, otx_material_flags *out)
+{
+    const char *text = values->text[OTX_FLAG_MATERIAL];
+    const osdtex_material_info *info;
+    osdtex_status status;
+
+    if (!text)
+        return OSDTEX_OK;
+    status = osdtex_material_find(session->context, text, &out->found);
+    if (status != OSDTEX_OK)
+        return status;
+    info = osdtex_material_describe(out->found);
+    for (int i = 0; i < info->map_count; ++i)
+        put(out, info->maps[i]);
+    /* Before the cage there is none. */
+    if (values->operand_count == 1 && !values->saved)
+        values->operands[values->operand_count++] = info->color;
+    return OSDTEX_OK;
+}
+
+static bool
+take_range(const otx_flag_values *values, osdtex_exemplar_options *options)
+{
+    const char *range = values->text[OTX_FLAG_HEIGHT_RANGE];
+    const char *middle = values->text[OTX_FLAG_HEIGHT_MIDDLE];
+
+    if (range && (!otx_value_real(range, &options->height_range) ||
+                  !(options->height_range > 0.0)))
+    {
+        otx_session_refuse(
+            "--height-range takes a positive number of scene units, not '%s'",
+            range);
+        return false;
+    }
+    if (middle && !otx_value_real(middle, &options->height_middle))
+    {
+        otx_session_refuse(
+            "--height-middle takes a value of the height map, not '%s'",
+            middle);
+        return false;
+    }
+    return true;
+}
+
+/* As inputs, each file once. */
+static void
+list_inputs(const otx_material_flags *flags, otx_flag_values *values)
+{
+    values->map_count = 0;
+    for (int i = 0; i < flags->count; ++i)
+    {
+        bool listed = false;
+
+        for (int k = 0; k < values->map_count; ++k)
+            listed |= strcmp(values->maps[k], flags->maps[i].path) == 0;
+        if (!listed)
+            values->maps[values->map_count++] = flags->maps[i].path;
+    }
+}
+
+osdtex_status
+otx_material_flags_take(
+    otx_session *session, otx_flag_values *values,
+    osdtex_exemplar_options *options, otx_material_flags *out)
+{
+    osdtex_status status = take_found(session, values, out);
+
+    if (status != OSDTEX_OK)
+        return status;
+    if (!take_maps(values, out) || !take_range(values, options))
+        return OSDTEX_ERROR_ARGUMENT;
+    options->maps = out->maps;
+    options->map_count = out->count;
+    list_inputs(out, values);
+    return OSDTEX_OK;
+}
+
+uint32_t
+otx_material_flags_kinds(const otx_material_flags *flags)
+{
+    uint32_t kinds = 0;
+
+    for (int i = 0; i < flags->count; ++i)
+        kinds |= 1u << flags->maps[i].kind;
+    return kinds;
+}
+
+void
+otx_material_flags_destroy(otx_material_flags *flags)
+{
+    osdtex_material_destroy(flags->found);
+}

@@ -1,0 +1,130 @@
+/* companion_files.c -- maps taken out of their image, with levels of their own.
+ */
+#include "export/companion_files.h"
+
+#include "image/pyramid.h"
+
+#include <string.h>
+
+static const char STAGE[] = "export";
+
+otx_exr_options
+otx_companion_files_options(otx_companion_kind kind)
+{
+    otx_exr_options options = otx_exr_options_default();
+
+    options.full_float = kind == OTX_COMPANION_HEIGHT;
+    options.color_space = "Raw";
+    options.interop_id = "data";
+    return options;
+}
+
+/* "FOLDER/NAME_normal.exr" of "FOLDER/NAME.exr", in run->arena. */
+static const char *
+path_of(otx_run *run, const char *color, otx_companion_kind kind)
+{
+    const char *name = otx_companion_name(kind);
+    const size_t base = (size_t)(strrchr(color, '.') - color);
+    const size_t bytes = base + strlen(name) + sizeof "_.exr";
+    char *path = OTX_NEW(run->arena, char, bytes);
+
+    if (!path)
+        return NULL;
+    memcpy(path, color, base);
+    path[base] = '_';
+    strcpy(path + base + 1, name);
+    strcat(path + base, ".exr");
+    return path;
+}
+
+/* One map by itself. */
+static otx_status
+take_out(
+    otx_run *run, const otx_companions *set, otx_companion_kind kind,
+    double width, otx_image *out)
+{
+    const otx_image *all = &set->image;
+    const size_t count = (size_t)all->width * (size_t)all->height;
+    const int32_t channels = otx_companion_channels(kind);
+    const bool is_height = kind == OTX_COMPANION_HEIGHT;
+    const otx_companion_scale scale = otx_companions_scale(set, width);
+
+    OTX_TRY(otx_image_create(
+        run, run->scratch, all->width, all->height, channels, out));
+    for (size_t i = 0; i < count; ++i)
+    {
+        const float *from =
+            all->pixels + i * (size_t)all->channels + set->maps[kind].first;
+
+        for (int32_t c = 0; c < channels; ++c)
+            out->pixels[i * (size_t)channels + (size_t)c] =
+                is_height ? (float)((from[c] - scale.middle) * scale.range)
+                          : from[c];
+    }
+    return OSDTEX_OK;
+}
+
+static void
+encode(otx_image *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+
+    for (size_t i = 0; i < count; ++i)
+        otx_companion_encode_normal(image->pixels + 3 * i);
+}
+
+/* Levels 0, 1, ... down to one texel. */
+static otx_status
+make_levels(
+    otx_run *run, const otx_exemplar *exemplar, const otx_image *map,
+    otx_pyramid *out)
+{
+    out->count = otx_pyramid_count(map->width, map->height);
+    out->levels[0] = *map;
+    /* A tiled texture has levels that keep its tiles apart. */
+    if (exemplar->tiles.cell > 0 && map->width == exemplar->linear.width)
+        return otx_tile_layout_levels(
+            run, run->scratch, &exemplar->tiles, map, out->levels + 1);
+    return otx_pyramid_build(run, run->scratch, map, out);
+}
+
+static otx_status
+write_map(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_exemplar *exemplar, otx_companion_kind kind, double width)
+{
+    otx_exr_options options = otx_companion_files_options(kind);
+    otx_pyramid levels;
+    otx_image map;
+
+    if (!path)
+        return otx_fail_memory(run, STAGE);
+    OTX_TRY(take_out(run, &exemplar->companions, kind, width, &map));
+    OTX_TRY(make_levels(run, exemplar, &map, &levels));
+    for (int32_t i = 0; kind == OTX_COMPANION_NORMAL && i < levels.count; ++i)
+        encode(&levels.levels[i]);
+    options.wrap_x = exemplar->tiles.cell == 0 && exemplar->wrap_x;
+    options.wrap_y = exemplar->tiles.cell == 0 && exemplar->wrap_y;
+    options.levels = levels.levels + 1;
+    options.level_count = levels.count - 1;
+    return otx_exr_write(run, set, path, &levels.levels[0], &options);
+}
+
+otx_status
+otx_companion_files_write(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_exemplar *exemplar, double width)
+{
+    for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
+    {
+        const otx_arena_mark mark = otx_arena_here(run->scratch);
+        const otx_companion_kind kind = (otx_companion_kind)k;
+
+        if (!exemplar->companions.maps[k].is_there)
+            continue;
+        OTX_TRY(write_map(
+            run, set, path_of(run, path, kind), exemplar, kind, width));
+        otx_arena_release(run->scratch, mark);
+    }
+    return OSDTEX_OK;
+}

@@ -1,0 +1,21 @@
+/* companion_files.h -- the other maps of a material beside its colour. */
+#ifndef OTX_EXPORT_COMPANION_FILES_H
+#define OTX_EXPORT_COMPANION_FILES_H
+
+#include "exemplar/exemplar.h"
+#include "file/atomic_file.h"
+#include "file/exr.h"
+
+/* How a map of this kind is written: as data, heights in 32 bits, all others in
+ * 16; one channel Y, or of normals R, G, B. */
+otx_exr_options otx_companion_files_options(otx_companion_kind kind);
+
+/* Writes each map of an exemplar as a tiled, mip-mapped EXR of `set`, called as
+ * the colour's file `path` is with "_normal.exr" and so on in the place of its
+ * extension. Normals are (n + 1) / 2, y up, of length 1 at every level; heights
+ * are scene units where the picture is `width` of them wide. IO, MEMORY. */
+otx_status otx_companion_files_write(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_exemplar *exemplar, double width);
+
+#endif

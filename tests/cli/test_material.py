@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""Materials: which files are a set, what is written of it, and what is refused.
+
+    test_material.py OSDTEX
+"""
+
+import json
+import shutil
+import struct
+import sys
+import unittest
+import zlib
+
+from program import CAGES, EXEMPLARS, ProgramTest, main
+
+CAGE = CAGES / "torus.obj"
+KINDS = "normal", "roughness", "height", "metalness", "occlusion"
+QUICK = "--level", "1"
+BAKE = "--uvs", "atlas", "--resolution", "128"
+
+
+def write_png(path, texel, side=256, bits=8):
+    """A picture of one colour: bytes of a texel."""
+    def chunk(kind, data):
+        body = kind + data
+        return struct.pack(">I", len(data)) + body + struct.pack(
+            ">I", zlib.crc32(body))
+    kind = {1: 0, 3: 2}[len(texel) * 8 // bits]
+    rows = (b"\0" + bytes(texel) * side) * side
+    path.write_bytes(
+        b"\x89PNG\r\n\x1a\n" +
+        chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, bits, kind, 0, 0, 0))
+        + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+class Material(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.set = self.folder / "set"
+        self.set.mkdir()
+        self.color = self.set / "Peb_1K_Color.png"
+        shutil.copy(EXEMPLARS / "pebbles_tile.png", self.color)
+        write_png(self.set / "Peb_1K_NormalGL.png", (128, 128, 255))
+        write_png(self.set / "Peb_1K_arm.png", (255, 100, 0), side=128)
+        write_png(self.set / "Peb_1K_disp.png", (1, 0), side=512, bits=16)
+
+    def bake(self, *more, command="bake", name="a.obj"):
+        return self.run_program(
+            command, CAGE, *more, "-o", self.folder / name, *QUICK,
+            *(BAKE if command == "bake" else ()))
+
+    def pixels(self, name):
+        """All of an EXR behind what its header says of the job."""
+        data = (self.folder / name).read_bytes()
+        return data[data.index(b"wrapmodes"):]
+
+    def test_a_bake_of_a_set(self):
+        result = self.bake(
+            "--material", self.set, "--json-report", self.folder / "a.json")
+        self.assert_exit(result, 0)
+        self.assertIn("height map, 512 x 512, 16-bit, data", result.stderr)
+        self.assertIn("roughness map, 128 x 128, 8-bit, data, from green",
+                      result.stderr)
+        for kind in KINDS:
+            self.assertTrue((self.folder / f"a_{kind}.1001.exr").exists(), kind)
+        maps = json.loads((self.folder / "a.json").read_text())[
+            "inputs"]["exemplar"]["maps"]
+        self.assertEqual(set(maps), set(KINDS))
+        self.assertEqual(maps["normal"]["y"], "up")
+        self.assertEqual(maps["metalness"]["channel"], 2)
+        # The colour is what it is without the set.
+        self.assert_exit(self.bake(self.color, name="b.obj"), 0)
+        self.assertEqual(
+            self.pixels("a.1001.exr")[-20000:],
+            self.pixels("b.1001.exr")[-20000:])
+
+    def test_map_writes_them_beside(self):
+        result = self.bake(
+            self.color, "--map", f"normal={self.set}/Peb_1K_NormalGL.png",
+            command="map")
+        self.assert_exit(result, 0)
+        self.assertTrue((self.folder / "a_normal.exr").exists())
+        self.assertFalse((self.folder / "a_height.exr").exists())
+
+    def test_update_and_guard(self):
+        def again(*more):
+            result = self.bake("--material", self.set, "-u", *more)
+            self.assert_exit(result, 0)
+            return "is up to date" not in result.stderr
+        self.assertTrue(again())
+        self.assertFalse(again())
+        write_png(self.set / "Peb_1K_arm.png", (255, 101, 0), side=128)
+        self.assertTrue(again())
+        self.assertFalse(again())
+        (self.folder / "a_height.1001.exr").unlink()
+        self.assertTrue(again())
+        self.assertTrue(again("--height-range", "2"))
+        # A map is an input like any other.
+        shutil.copy(self.set / "Peb_1K_NormalGL.png",
+                    self.folder / "n_normal.exr")
+        result = self.bake(
+            self.color, "--map", f"normal={self.folder}/n_normal.exr",
+            command="map", name="n.obj")
+        self.assert_exit(result, 1)
+        self.assertIn("is an input and would be replaced", result.stderr)
+
+    def refuse(self, code, words, *more):
+        result = self.bake(*more)
+        self.assert_exit(result, code)
+        self.assertEqual(
+            len([l for l in result.stderr.splitlines() if "error" in l]), 1)
+        self.assertIn(words, result.stderr)
+        self.assertFalse((self.folder / "a_cage.obj").exists())
+
+    def test_refusals(self):
+        self.refuse(2, "no picture of that name", "--material",
+                    self.folder / "none")
+        self.refuse(2, "could both be the same map", "--material",
+                    self.twice())
+        (self.set / "Peb_1K_disp.exr").unlink()
+        self.refuse(2, "no whole number", self.color, "--map",
+                    f"height={self.odd()}")
+        self.refuse(2, "is it a height", self.color, "--map",
+                    f"normal={self.set}/Peb_1K_disp.png")
+        self.refuse(1, "--map takes KIND=FILE", self.color, "--map", "x=y")
+        self.refuse(1, "--height-range", self.color, "--height-range", "-1")
+        self.color.unlink()
+        self.refuse(2, "as the colour of a material is", "--material",
+                    self.set)
+
+    def twice(self):
+        write_png(self.set / "Peb_1K_disp.exr", (1,))
+        return self.set
+
+    def odd(self):
+        path = self.folder / "odd.png"
+        write_png(path, (1,), side=100)
+        return path
+
+
+if __name__ == "__main__":
+    main()
