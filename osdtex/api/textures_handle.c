@@ -37,7 +37,8 @@ add_textures(
 {
     for (int kind = 0; kind < OTX_TEXEL_KIND_COUNT; ++kind)
     {
-        const otx_bake_options how = {(otx_texel_kind)kind, ours->seam_blend};
+        const otx_bake_options how = {
+            .kind = (otx_texel_kind)kind, .seam_blend = ours->seam_blend};
         const int32_t i = handle->info.texture_count;
 
         if (!otx_bake_handle_has(ours, how.kind))

@@ -228,7 +228,8 @@ seams_are_blended_within_their_width(void **state)
         const otx_surface *surface = flat_surface(run, N, 3);
         otx_mapping *mapping = flat_mapping(run, surface, N);
         const otx_exemplar *exemplar = flat_ramp(run, 64);
-        const otx_bake_options options = {OTX_TEXEL_COLOR, BLEND};
+        const otx_bake_options options = {
+            .kind = OTX_TEXEL_COLOR, .seam_blend = BLEND};
 
         tear(mapping, tears[i]);
 
@@ -563,7 +564,8 @@ lay_out_and_bake(
     flat_levels *out)
 {
     const otx_layout_options where = {OTX_LAYOUT_ATLAS, 128, 4, 0.0};
-    const otx_bake_options options = {OTX_TEXEL_COLOR, 4.0};
+    const otx_bake_options options = {
+        .kind = OTX_TEXEL_COLOR, .seam_blend = 4.0};
     const otx_bake_sink sink = flat_sink(out);
     otx_layout layout;
     otx_bake bake;

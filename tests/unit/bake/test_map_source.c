@@ -86,7 +86,8 @@ bake(
         .kind = OTX_TEXEL_COLOR, .maps = true, .normals_y_down = y_down};
     const int32_t count = otx_pyramid_count(layout->side, layout->side);
     baked out = {{count, {{0}}}, {count, {{0}}}};
-    const otx_bake_sink sink = {take, flat_put, &out};
+    const otx_bake_sink sink = {
+        .take = take, .put = flat_put, .user = &out, .share = 1.0};
     otx_bake job;
 
     assert_int_equal(
