@@ -37,6 +37,25 @@ path_of(otx_run *run, const char *color, otx_companion_kind kind)
     return path;
 }
 
+otx_data_maps
+otx_companion_files_names(
+    otx_run *run, const char *name, const otx_companions *companions)
+{
+    const char *names[OTX_COMPANION_COUNT];
+
+    for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
+        names[k] = companions->maps[k].is_there
+                       ? path_of(run, name, (otx_companion_kind)k)
+                       : NULL;
+    return (otx_data_maps){
+        .normal = names[OTX_COMPANION_NORMAL],
+        .roughness = names[OTX_COMPANION_ROUGHNESS],
+        .metalness = names[OTX_COMPANION_METALNESS],
+        .height = names[OTX_COMPANION_HEIGHT],
+        .occlusion = names[OTX_COMPANION_OCCLUSION],
+    };
+}
+
 /* One map by itself. */
 static otx_status
 take_out(

@@ -4,11 +4,17 @@
 
 #include "exemplar/exemplar.h"
 #include "file/atomic_file.h"
+#include "file/data_maps.h"
 #include "file/exr.h"
 
 /* How a map of this kind is written: as data, heights in 32 bits, all others in
  * 16; one channel Y, or of normals R, G, B. */
 otx_exr_options otx_companion_files_options(otx_companion_kind kind);
+
+/* What texts beside it call the maps of the texture `name`; NULL those that the
+ * exemplar lacks. In run->arena, which tells when memory is out. */
+otx_data_maps otx_companion_files_names(
+    otx_run *run, const char *name, const otx_companions *companions);
 
 /* Writes each map of an exemplar as a tiled, mip-mapped EXR of `set`, called as
  * the colour's file `path` is with "_normal.exr" and so on in the place of its

@@ -14,6 +14,7 @@
 #include "file/obj_write.h"
 #include "file/png_file.h"
 #include "file/usda.h"
+#include "mapping/source.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -91,6 +92,39 @@ texture_name(const writer *w, const char *extension)
     else
         snprintf(suffix, sizeof suffix, ".<UDIM>%s", extension);
     return name_of(w, suffix);
+}
+
+/* The same of a map; NULL where no exemplar has it. */
+static const char *
+map_name(const writer *w, otx_companion_kind kind)
+{
+    const int32_t count = otx_source_count(w->mapping);
+    char suffix[SUFFIX_BYTES];
+    bool is_there = false;
+
+    for (int32_t k = 0; k < count; ++k)
+        is_there |= w->exemplars[k].companions.maps[kind].is_there;
+    if (w->layout->tile_count == 1)
+        snprintf(
+            suffix, sizeof suffix, "_%s.%" PRId32 ".exr",
+            otx_companion_name(kind), w->layout->tiles[0]);
+    else
+        snprintf(
+            suffix, sizeof suffix, "_%s.<UDIM>.exr", otx_companion_name(kind));
+    return is_there ? name_of(w, suffix) : NULL;
+}
+
+/* Those of all maps; run->arena tells when memory is out. */
+static otx_data_maps
+map_names(const writer *w)
+{
+    return (otx_data_maps){
+        .normal = map_name(w, OTX_COMPANION_NORMAL),
+        .roughness = map_name(w, OTX_COMPANION_ROUGHNESS),
+        .metalness = map_name(w, OTX_COMPANION_METALNESS),
+        .height = map_name(w, OTX_COMPANION_HEIGHT),
+        .occlusion = map_name(w, OTX_COMPANION_OCCLUSION),
+    };
 }
 
 static const char *
@@ -399,6 +433,7 @@ write_mtl(
     otx_mtl_material *list =
         OTX_NEW(w->run->scratch, otx_mtl_material, materials->count);
     const otx_mtl mtl = {path, materials->count, list};
+    const otx_data_maps maps = map_names(w);
     const char *temporary;
 
     OTX_TRY(otx_run_ok(w->run));
@@ -407,6 +442,7 @@ write_mtl(
             .name = materials->text[i],
             .diffuse = {1.0f, 1.0f, 1.0f},
             .map_kd = texture,
+            .maps = maps,
         };
     OTX_TRY(otx_atomic_file_add(w->run, w->set, path, &temporary));
     return otx_mtl_write(w->run, &mtl, temporary, path);
@@ -516,6 +552,7 @@ write_usda(const writer *w)
             listed.face_material};
     usda.texture = color_name(w);
     usda.materialx = name_of(w, ".mtlx");
+    usda.maps = map_names(w);
     usda.interop_id = otx_texture_file_interop_id(w->exemplars);
     /* A subdivided mesh has those of its limit in USD. */
     if (w->options->normals &&
@@ -545,6 +582,7 @@ write_mtlx(const writer *w)
     const otx_mtlx mtlx = {
         .name = w->names.stem,
         .texture = color_name(w),
+        .maps = map_names(w),
         .interop_id = otx_texture_file_interop_id(w->exemplars)};
     const char *temporary;
 

@@ -419,7 +419,8 @@ write_obj(
 static otx_status
 write_mtl(
     otx_run *run, otx_atomic_file_set *set, const otx_names *names,
-    const otx_obj *obj, const material_list *materials)
+    const otx_obj *obj, const material_list *materials,
+    const otx_exemplar *exemplars)
 {
     otx_mtl_material *list =
         OTX_NEW(run->scratch, otx_mtl_material, materials->count);
@@ -428,11 +429,18 @@ write_mtl(
 
     OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < materials->count; ++i)
+    {
+        const int32_t k = materials->sources[i];
+
         list[i] = (otx_mtl_material){
             .name = obj->materials.text[i],
             .diffuse = {1.0f, 1.0f, 1.0f},
-            .map_kd = names->texture_names[materials->sources[i]],
+            .map_kd = names->texture_names[k],
+            .maps = otx_companion_files_names(
+                run, names->texture_names[k], &exemplars[k].companions),
         };
+    }
+    OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_atomic_file_add(run, set, names->mtl, &temporary));
     return otx_mtl_write(run, &mtl, temporary, names->mtl);
 }
@@ -459,7 +467,7 @@ write_files(
         OTX_TRY(otx_companion_files_write(
             run, set, names->textures[k], &exemplars[k],
             otx_source_unit(mapping, exemplars, k).x));
-    OTX_TRY(write_mtl(run, set, names, obj, materials));
+    OTX_TRY(write_mtl(run, set, names, obj, materials, exemplars));
     OTX_TRY(write_obj(run, set, names, obj, options));
     return options->set ? OSDTEX_OK : otx_atomic_file_commit(run, set, true);
 }
