@@ -362,7 +362,7 @@ test_bad_input_leaves_no_file(void **state)
     otx_run *run = test_run_create();
     const test_folder folder = test_folder_create();
     otx_image image = test_noise(run, 100, 70, 3);
-    const otx_image gray = test_noise(run, 4, 4, 1);
+    const otx_image two = test_noise(run, 4, 4, 2);
     const otx_exr_options options = otx_exr_options_default();
     const otx_exr_attribute twice[2] = {
         {.name = "a", .text = "x"}, {.name = "", .text = "y"}};
@@ -372,7 +372,7 @@ test_bad_input_leaves_no_file(void **state)
     bad_options.attributes = twice;
     bad_options.attribute_count = 2;
     assert_int_equal(
-        test_write_exr(run, test_path(&folder, "a.exr"), &gray, &options),
+        test_write_exr(run, test_path(&folder, "a.exr"), &two, &options),
         OSDTEX_ERROR_ARGUMENT);
     assert_int_equal(
         test_write_exr(run, test_path(&folder, "a.exr"), &image, &bad_options),

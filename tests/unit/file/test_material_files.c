@@ -76,7 +76,7 @@ test_folders(void **state)
 {
     otx_run *run = test_run_create();
     const test_folder folder = test_folder_create();
-    const char *all = test_path(&folder, "");
+    const char *all = folder.path;
     otx_material_files files;
 
     (void)state;
