@@ -88,13 +88,12 @@ count_components(otx_run *run, const otx_cage *cage, int32_t *out)
     for (int32_t f = 0; f < cage->face_count; ++f)
     {
         const int32_t first = cage->face_first[f];
-        const int32_t root =
-            otx_union_find_root(parent, cage->face_verts[first]);
 
         for (int32_t c = first; c < cage->face_first[f + 1]; ++c)
         {
             used[cage->face_verts[c]] = 1;
-            parent[otx_union_find_root(parent, cage->face_verts[c])] = root;
+            otx_union_find_join(
+                parent, cage->face_verts[first], cage->face_verts[c]);
         }
     }
     for (int32_t v = 0; v < cage->vert_count; ++v)

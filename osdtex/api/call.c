@@ -1,19 +1,10 @@
 /* call.c -- beginning and end of every entry. */
 #include "api/call.h"
 
+#include "base/clock.h"
+
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-/* Wall seconds of a clock that never goes back. */
-static double
-now(void)
-{
-    struct timespec now;
-
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /* Seconds between calls of the host's progress from loops that know no end. */
 static const double PULSE_SECONDS = 0.05;
@@ -60,7 +51,7 @@ otx_call_begin(osdtex_context *context, const char *stage, otx_call *call)
                 .mark = context->outputs ? &context->mark : NULL,
             },
         .scratch = otx_arena_here(context->scratch),
-        .begun = now(),
+        .begun = otx_clock_now(),
     };
     context->stage = stage;
     context->fraction = 0.0;
@@ -93,7 +84,7 @@ static void
 finish(otx_call *call)
 {
     otx_arena_release(call->run.scratch, call->scratch);
-    add_time(call->context, call->stage, now() - call->begun);
+    add_time(call->context, call->stage, otx_clock_now() - call->begun);
 }
 
 otx_status

@@ -1,13 +1,14 @@
 /* bin.c -- a counting sort. */
 #include "bake/bin.h"
 
+#include "base/csr.h"
+
 otx_status
 otx_bin_build(
     otx_run *run, otx_arena *arena, int32_t columns, int32_t rows,
     int32_t count, otx_bin_box_fn box, const void *context, otx_bin *out)
 {
     const int64_t blocks = (int64_t)columns * rows;
-    /* One behind, so that filling leaves the offsets in place. */
     int64_t *first = OTX_ZNEW(arena, int64_t, blocks + 2);
     int32_t *items;
 
@@ -19,10 +20,9 @@ otx_bin_build(
 
         for (int32_t y = b.y; y < b.y_end; ++y)
             for (int32_t x = b.x; x < b.x_end; ++x)
-                ++first[(int64_t)y * columns + x + 2];
+                otx_csr_wide_count(first, (int64_t)y * columns + x, 1);
     }
-    for (int64_t k = 2; k < blocks + 2; ++k)
-        first[k] += first[k - 1];
+    otx_csr_wide_sum(first, blocks);
     items = OTX_NEW(arena, int32_t, first[blocks + 1]);
     if (!items)
         return otx_fail_memory(run, "bake");
@@ -32,7 +32,7 @@ otx_bin_build(
 
         for (int32_t y = b.y; y < b.y_end; ++y)
             for (int32_t x = b.x; x < b.x_end; ++x)
-                items[first[(int64_t)y * columns + x + 1]++] = i;
+                items[otx_csr_wide_place(first, (int64_t)y * columns + x)] = i;
     }
     *out = (otx_bin){columns, rows, first, items};
     return OSDTEX_OK;

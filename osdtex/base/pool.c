@@ -6,6 +6,8 @@
  * its turn in one, helps with loops that were opened inside. */
 #include "base/pool.h"
 
+#include "base/clock.h"
+
 #include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
@@ -66,22 +68,13 @@ struct otx_pool
 
 /* -- stopping ------------------------------------------------------------- */
 
-static double
-now(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 void
 otx_pool_watch(otx_pool *pool, otx_pool_watch_fn fn, void *user, double seconds)
 {
     pool->watch = fn;
     pool->watch_user = user;
     pool->watch_seconds = seconds;
-    pool->watched = now();
+    pool->watched = otx_clock_now();
     atomic_store(&pool->stopped, false);
 }
 
@@ -90,7 +83,7 @@ otx_pool_look(otx_pool *pool)
 {
     if (pool->watch && !atomic_load(&pool->stopped))
     {
-        const double t = now();
+        const double t = otx_clock_now();
 
         if (t - pool->watched >= pool->watch_seconds)
         {

@@ -1,8 +1,9 @@
 /* stopwatch.c -- clocks, best and median. */
 #include "bench/stopwatch.h"
 
+#include "base/clock.h"
+
 #include <stdlib.h>
-#include <time.h>
 
 enum
 {
@@ -10,20 +11,11 @@ enum
     MOST_TURNS = 99
 };
 
-static double
-seconds(clockid_t clock)
-{
-    struct timespec t;
-
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 bench_time
 bench_stopwatch_now(void)
 {
     return (bench_time){
-        seconds(CLOCK_MONOTONIC), seconds(CLOCK_PROCESS_CPUTIME_ID)};
+        otx_clock_now(), otx_clock_read(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
 bench_time

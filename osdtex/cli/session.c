@@ -3,12 +3,13 @@
 #include "cli/spool.h"
 #include "cli/value.h"
 
+#include "regress/process.h"
+
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 enum
@@ -67,19 +68,10 @@ otx_session_is_stopped(void)
     return caught_signal != 0;
 }
 
-static double
-now(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 double
 otx_session_seconds(const otx_session *session)
 {
-    return now() - session->begun;
+    return otx_process_seconds() - session->begun;
 }
 
 static void
@@ -156,7 +148,7 @@ otx_session_refuse(const char *format, ...)
 void
 otx_session_lap(otx_session *session, const char *what)
 {
-    const double t = now();
+    const double t = otx_process_seconds();
 
     if (session->verbose)
         otx_session_say(session, "%s: %.3f s", what, t - session->lap);
@@ -239,7 +231,7 @@ show_progress(void *user, const char *stage, double fraction)
 {
     otx_session *session = user;
     const double interval = session->is_terminal ? 0.1 : 1.0;
-    const double t = now();
+    const double t = otx_process_seconds();
     const int percent = (int)(100.0 * fraction);
 
     if (caught_signal)
@@ -319,9 +311,9 @@ otx_session_begin(otx_session *session, const otx_flag_values *values)
         .quiet = values->text[OTX_FLAG_QUIET] != NULL,
         .verbose = values->text[OTX_FLAG_VERBOSE] != NULL,
         .is_terminal = isatty(STDERR_FILENO) != 0,
-        .begun = now(),
-        .lap = now(),
-        .shown = now(),
+        .begun = otx_process_seconds(),
+        .lap = otx_process_seconds(),
+        .shown = otx_process_seconds(),
         .percent = -1,
         .exit_code = OTX_EXIT_USAGE,
     };

@@ -6,6 +6,7 @@
  * there is distortion to distribute anyway. */
 #include "flatten/rigid.h"
 
+#include "base/csr.h"
 #include "flatten/stretch.h"
 
 #include <string.h>
@@ -61,33 +62,27 @@ make_triangles(const otx_rigid_mesh *mesh, otx_rigid *r)
         }
 }
 
-/* Counts, sums, fills; filling shifts the offsets, which are put back. */
 static void
 make_rows(otx_rigid *r)
 {
-    const int32_t n = r->vert_count;
-
     for (int32_t t = 0; t < r->triangle_count; ++t)
         for (int i = 0; i < 3; ++i)
-            r->row[r->triangles[t].v[i] + 1] += 2;
-    for (int32_t v = 0; v < n; ++v)
-        r->row[v + 1] += r->row[v];
+            otx_csr_count(r->row, r->triangles[t].v[i], 2);
+    otx_csr_sum(r->row, r->vert_count);
     for (int32_t t = 0; t < r->triangle_count; ++t)
         for (int i = 0; i < 3; ++i)
         {
             const otx_rigid_triangle *d = &r->triangles[t];
             const int32_t a = d->v[i], b = d->v[(i + 1) % 3];
+            const int32_t ab = otx_csr_place(r->row, a);
+            const int32_t ba = otx_csr_place(r->row, b);
 
-            r->column[r->row[a]] = b;
-            r->weight[r->row[a]++] = d->w[i];
-            r->column[r->row[b]] = a;
-            r->weight[r->row[b]++] = d->w[i];
+            r->column[ab] = b;
+            r->column[ba] = a;
+            r->weight[ab] = r->weight[ba] = d->w[i];
             r->diagonal[a] += d->w[i];
             r->diagonal[b] += d->w[i];
         }
-    for (int32_t v = n; v > 0; --v)
-        r->row[v] = r->row[v - 1];
-    r->row[0] = 0;
 }
 
 /* An edge of two triangles stands twice in its row: once is half the work of
@@ -129,7 +124,7 @@ otx_rigid_build(otx_arena *arena, const otx_rigid_mesh *mesh, otx_rigid *out)
 
     *out = (otx_rigid){.vert_count = mesh->vert_count};
     out->triangles = OTX_NEW(arena, otx_rigid_triangle, corners);
-    out->row = OTX_ZNEW(arena, int32_t, n + 1);
+    out->row = OTX_ZNEW(arena, int32_t, n + 2);
     out->column = OTX_NEW(arena, int32_t, 6 * corners);
     out->weight = OTX_NEW(arena, double, 6 * corners);
     out->diagonal = OTX_ZNEW(arena, double, n);
@@ -199,20 +194,17 @@ otx_rigid_fans_build(
 {
     const int32_t n = rigid->vert_count, corners = 3 * rigid->triangle_count;
 
-    out->first = OTX_ZNEW(arena, int32_t, (int64_t)n + 1);
+    out->first = OTX_ZNEW(arena, int32_t, (int64_t)n + 2);
     out->corners = OTX_NEW(arena, int32_t, corners);
     out->turns = OTX_NEW(arena, otx_vec2, rigid->triangle_count);
     if (!out->first || !out->corners || !out->turns)
         return OSDTEX_ERROR_MEMORY;
     for (int32_t c = 0; c < corners; ++c)
-        ++out->first[rigid->triangles[c / 3].v[c % 3] + 1];
-    for (int32_t v = 0; v < n; ++v)
-        out->first[v + 1] += out->first[v];
+        otx_csr_count(out->first, rigid->triangles[c / 3].v[c % 3], 1);
+    otx_csr_sum(out->first, n);
     for (int32_t c = 0; c < corners; ++c)
-        out->corners[out->first[rigid->triangles[c / 3].v[c % 3]]++] = c;
-    for (int32_t v = n; v > 0; --v)
-        out->first[v] = out->first[v - 1];
-    out->first[0] = 0;
+        out->corners[otx_csr_place(
+            out->first, rigid->triangles[c / 3].v[c % 3])] = c;
     return OSDTEX_OK;
 }
 

@@ -17,7 +17,7 @@ tap_at(double x, int32_t side, bool wrap)
 {
     if (wrap)
     {
-        x -= side * floor(x / side);
+        x = otx_view_wrap(x, side);
         if (!(x >= 0.0 && x < side))
             x = 0.0;
     }
@@ -101,7 +101,7 @@ line_tap_at(double position, int32_t size, bool wrap)
         double i = below + k;
 
         if (wrap)
-            i -= size * floor(i / size);
+            i = otx_view_wrap(i, size);
         /* Written so that NaN reads the first texel. */
         i = i > 0.0 ? i : 0.0;
         t.index[k] = (size_t)(i < size - 1 ? i : size - 1);
@@ -173,9 +173,9 @@ otx_view_line(
         otx_vec2_add(ends[0], (otx_vec2){-step * along.y, step * along.x});
 
     if (view.wrap_x)
-        start.x -= image->width * floor(start.x / image->width);
+        start.x = otx_view_wrap(start.x, image->width);
     if (view.wrap_y)
-        start.y -= image->height * floor(start.y / image->height);
+        start.y = otx_view_wrap(start.y, image->height);
 
     const bool fast =
         inside(image, start) && inside(image, otx_vec2_add(start, along));

@@ -5,8 +5,8 @@
  * where neighbouring texels are interpolated. Positions are in texels: texel
  * (x, y) has its centre at (x + 1/2, y + 1/2).
  *
- *     const otx_image_view view = otx_view_of(&exemplar->match, wrap_x,
- * wrap_y); float color[3];
+ *     const otx_image_view view = otx_view_of(picture, wrap_x, wrap_y);
+ *     float color[3];
  *
  *     otx_view_value(view, texel, color);
  *
@@ -19,6 +19,8 @@
 
 #include "image/image.h"
 
+#include <math.h>
+
 typedef struct otx_image_view
 {
     const otx_image *image;
@@ -29,6 +31,21 @@ static inline otx_image_view
 otx_view_of(const otx_image *image, bool wrap_x, bool wrap_y)
 {
     return (otx_image_view){image, wrap_x, wrap_y};
+}
+
+/* The multiple of `size` at or below a position. */
+static inline double
+otx_view_period(double x, int32_t size)
+{
+    return size * floor(x / size);
+}
+
+/* A position brought back into [0, size] by whole periods. The end is reached
+ * where a position just below 0 is rounded. */
+static inline double
+otx_view_wrap(double x, int32_t size)
+{
+    return x - otx_view_period(x, size);
 }
 
 /* The texel that index `i` shows along an axis of `size` texels. */

@@ -1,6 +1,8 @@
 /* coverage.c -- how evenly a surface uses an exemplar. */
 #include "mapping/coverage.h"
 
+#include "image/view.h"
+
 enum
 {
     CELLS = 32,     /* of the exemplar's longer side */
@@ -26,7 +28,7 @@ otx_coverage_begin(
 static int32_t
 cell_at(double texel, int32_t size, bool wrap, double cell, int32_t count)
 {
-    const double inside = wrap ? texel - size * floor(texel / size) : texel;
+    const double inside = wrap ? otx_view_wrap(texel, size) : texel;
     const double index = floor(inside / cell);
 
     if (!(index > 0.0))

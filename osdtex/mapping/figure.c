@@ -1,24 +1,16 @@
 /* figure.c -- what a run did, in rows that a method reports itself. */
 #include "mapping/figure.h"
 
+#include "base/clock.h"
+
 #include <math.h>
 #include <string.h>
-#include <time.h>
-
-static double
-now(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* A stage that runs has its start, negative, as its seconds. */
 void
 otx_figures_stage(otx_figures *figures, const char *name)
 {
-    const double time = now();
+    const double time = otx_clock_now();
 
     if (!figures)
         return;

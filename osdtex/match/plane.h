@@ -61,7 +61,7 @@ otx_plane_wrap(double x, int32_t size, bool wrap)
 
     if (near >= 0.0 && near < size)
         return near;
-    x -= size * floor(x / size);
+    x = otx_view_wrap(x, size);
     return x < size ? x : 0.0; /* -epsilon rounds up to size */
 }
 

@@ -306,9 +306,9 @@ present(const search *s, const otx_match *match)
     otx_match out = *match;
 
     if (m->wrap_x)
-        out.shift.x -= m->width * floor(at.x / m->width);
+        out.shift.x -= otx_view_period(at.x, m->width);
     if (m->wrap_y)
-        out.shift.y -= m->height * floor(at.y / m->height);
+        out.shift.y -= otx_view_period(at.y, m->height);
     out.error = sqrt(match->error);
     if (m->sigma > 0.0)
         out.error /= m->sigma;

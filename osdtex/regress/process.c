@@ -121,8 +121,8 @@ become(char *const *words, const char *log)
     _exit(CANNOT_START);
 }
 
-static double
-now(void)
+double
+otx_process_seconds(void)
 {
     struct timespec t;
 
@@ -141,11 +141,11 @@ static int
 put_down(pid_t child, struct rusage *used)
 {
     const struct timespec nap = {0, POLL_NANOSECONDS};
-    const double begun = now();
+    const double begun = otx_process_seconds();
     int state = 0;
 
     kill(child, SIGTERM);
-    while (now() - begun < GRACE_SECONDS)
+    while (otx_process_seconds() - begun < GRACE_SECONDS)
     {
         if (wait4(child, &state, WNOHANG, used) == child)
             return state;
@@ -163,14 +163,14 @@ attend(
     otx_process_end *out)
 {
     const struct timespec nap = {0, POLL_NANOSECONDS};
-    const double begun = now();
+    const double begun = otx_process_seconds();
     int state = 0;
     pid_t found;
 
     while ((found = wait4(child, &state, WNOHANG, used)) == 0 ||
            (found < 0 && errno == EINTR))
     {
-        out->timed_out = now() - begun > options->timeout;
+        out->timed_out = otx_process_seconds() - begun > options->timeout;
         out->stopped = options->stop && options->stop();
         if (out->timed_out || out->stopped)
         {
@@ -179,7 +179,7 @@ attend(
         }
         nanosleep(&nap, NULL);
     }
-    out->wall = now() - begun;
+    out->wall = otx_process_seconds() - begun;
     return state;
 }
 

@@ -8,6 +8,9 @@
 #include <stdint.h>
 #include <stdio.h>
 
+/* Wall seconds of a clock that never goes back. */
+double otx_process_seconds(void);
+
 /* The words of a command line, NULL behind the last. Begins as {0}. */
 typedef struct otx_process_words
 {

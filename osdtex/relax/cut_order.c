@@ -1,6 +1,8 @@
 /* cut_order.c -- patches that touch, and how deep each stands in a sweep. */
 #include "relax/cut_order.h"
 
+#include "base/csr.h"
+
 enum
 {
     NONE = -1
@@ -20,7 +22,6 @@ typedef struct builder
     int32_t *depth;       /* [offer_count] */
 } builder;
 
-/* Counts, sums, fills; filling shifts the offsets, which are put back. */
 static bool
 list_covers(builder *b, otx_arena *scratch)
 {
@@ -29,18 +30,14 @@ list_covers(builder *b, otx_arena *scratch)
 
     for (int32_t p = 0; p < b->offer_count; ++p)
         for (int32_t i = 0; i < b->offers[p].face_count; ++i)
-            ++first[b->offers[p].faces[i] + 1];
-    for (int32_t f = 0; f < faces; ++f)
-        first[f + 1] += first[f];
-    b->covers = OTX_NEW(scratch, int32_t, first[faces]);
+            otx_csr_wide_count(first, b->offers[p].faces[i], 1);
+    otx_csr_wide_sum(first, faces);
+    b->covers = OTX_NEW(scratch, int32_t, first[faces + 1]);
     if (!b->covers)
         return false;
     for (int32_t p = 0; p < b->offer_count; ++p)
         for (int32_t i = 0; i < b->offers[p].face_count; ++i)
-            b->covers[first[b->offers[p].faces[i]]++] = p;
-    for (int32_t f = faces; f > 0; --f)
-        first[f] = first[f - 1];
-    first[0] = 0;
+            b->covers[otx_csr_wide_place(first, b->offers[p].faces[i])] = p;
     return true;
 }
 
@@ -126,12 +123,11 @@ sort_by_depth(
     int32_t *offers)
 {
     for (int32_t p = 0; p < b->offer_count; ++p)
-        ++depth_first[b->depth[p] + 1];
-    for (int32_t d = 0; d < deepest; ++d)
-        depth_first[d + 1] += depth_first[d];
+        otx_csr_count(depth_first, b->depth[p], 1);
+    otx_csr_sum(depth_first, deepest + 1);
     for (int32_t p = 0; p < b->offer_count; ++p)
     {
-        place[p] = depth_first[b->depth[p]]++;
+        place[p] = otx_csr_place(depth_first, b->depth[p]);
         offers[place[p]] = p;
     }
 }
@@ -155,7 +151,7 @@ build(builder *b, otx_arena *arena, otx_arena *scratch, otx_cut_order *out)
         return OSDTEX_ERROR_MEMORY;
     list_touching(b);
     deepest = measure_depths(b);
-    depth_first = OTX_ZNEW(scratch, int32_t, (int64_t)deepest + 2);
+    depth_first = OTX_ZNEW(scratch, int32_t, (int64_t)deepest + 3);
     if (!depth_first)
         return OSDTEX_ERROR_MEMORY;
     sort_by_depth(b, depth_first, deepest, place, out->offers);
@@ -183,7 +179,7 @@ otx_cut_order_build(
         .offers = offers,
         .offer_count = offer_count,
         .cover_first =
-            OTX_ZNEW(scratch, int64_t, (int64_t)leaf->face_count + 1),
+            OTX_ZNEW(scratch, int64_t, (int64_t)leaf->face_count + 2),
         .face_seen = OTX_NEW(scratch, int32_t, leaf->face_count),
         .seen = OTX_NEW(scratch, int32_t, offer_count),
         .first = OTX_ZNEW(scratch, int64_t, (int64_t)offer_count + 1),

@@ -26,7 +26,7 @@ measure_seams(void *context, int64_t index, otx_worker *worker)
 
     (void)worker;
     for (int64_t i = first; i < end && i < e->sheet.seam_count; ++i)
-        e->energies[i] = seam_energy(e, &e->sheet.seams[i]);
+        e->energy.seams[i] = seam_energy(e, &e->sheet.seams[i]);
     return OSDTEX_OK;
 }
 
@@ -40,7 +40,7 @@ total_seam_energy(otx_elastic *e, double *out)
     OTX_TRY(otx_pool_for(e->run->pool, tasks, measure_seams, e));
     *out = 0.0;
     for (int32_t i = 0; i < e->sheet.seam_count; ++i)
-        *out += e->energies[i];
+        *out += e->energy.seams[i];
     return OSDTEX_OK;
 }
 
@@ -69,12 +69,13 @@ measure_rows(void *context, int64_t index, otx_worker *worker)
         otx_elastic_block_end(first, OTX_ELASTIC_ROWS, e->sheet.count);
 
     (void)worker;
-    otx_rigid_fans_pull(&e->sheet.rigid, &e->fans, first, end, e->b);
-    otx_rigid_apply(&e->sheet.rigid, e->sheet.at, first, end, e->step);
+    otx_rigid_fans_pull(&e->sheet.rigid, &e->fans, first, end, e->system.b);
+    otx_rigid_apply(&e->sheet.rigid, e->sheet.at, first, end, e->system.step);
     for (int32_t v = first; v < end; ++v)
-        e->terms[v] = otx_vec2_dot(
+        e->energy.terms[v] = otx_vec2_dot(
             e->sheet.at[v],
-            otx_vec2_sub(e->step[v], otx_vec2_scale(2.0, e->b[v])));
+            otx_vec2_sub(
+                e->system.step[v], otx_vec2_scale(2.0, e->system.b[v])));
     return OSDTEX_OK;
 }
 
@@ -90,7 +91,7 @@ total_energy(otx_elastic *e, double *out)
         e, e->sheet.rigid.triangle_count, OTX_ELASTIC_FACES, turn_faces);
     otx_elastic_over_blocks(e, e->sheet.count, OTX_ELASTIC_ROWS, measure_rows);
     for (int32_t v = 0; v < e->sheet.count; ++v)
-        sum += e->terms[v];
+        sum += e->energy.terms[v];
     *out += e->options->stiffness * sum;
     return OSDTEX_OK;
 }
@@ -106,29 +107,29 @@ round_of(
 {
     otx_sheet *s = &e->sheet;
     const otx_arena_mark mark = otx_arena_here(e->run->scratch);
-    double *badness = e->badness;
+    double *badness = e->guard.badness;
     double after, share = 1.0;
     otx_vec2 *step;
 
     OTX_TRY(otx_elastic_find_step(e, &step));
-    memcpy(e->moved, s->at, (size_t)s->count * sizeof *s->at);
-    e->badness = e->before;
-    e->before = badness;
+    memcpy(e->guard.from, s->at, (size_t)s->count * sizeof *s->at);
+    e->guard.badness = e->guard.before;
+    e->guard.before = badness;
     *improved = false;
     for (int32_t attempt = 0; attempt < 4 && !*improved; ++attempt)
     {
-        memcpy(e->step, step, (size_t)s->count * sizeof *step);
+        memcpy(e->system.step, step, (size_t)s->count * sizeof *step);
         OTX_TRY(
             otx_elastic_move(e, share, 2.0 * (1 << level), &stats->refused));
         OTX_TRY(total_energy(e, &after));
-        *improved = after < e->energy;
+        *improved = after < e->energy.total;
         share *= 0.5;
     }
     if (!*improved)
-        memcpy(s->at, e->moved, (size_t)s->count * sizeof *s->at);
+        memcpy(s->at, e->guard.from, (size_t)s->count * sizeof *s->at);
     else
     {
-        e->energy = after;
+        e->energy.total = after;
         ++stats->rounds;
     }
     otx_arena_release(e->run->scratch, mark);
@@ -139,12 +140,12 @@ round_of(
 static void
 look_at(otx_elastic *e, int32_t level)
 {
-    for (int32_t k = 0; k < e->exemplar_count; ++k)
+    for (int32_t k = 0; k < e->pictures.count; ++k)
     {
-        const otx_pyramid *p = &e->pyramids[k];
+        const otx_pyramid *p = &e->pictures.pyramids[k];
 
-        e->views[k] = (otx_elastic_view){
-            &e->exemplars[k],
+        e->pictures.views[k] = (otx_elastic_view){
+            &e->pictures.exemplars[k],
             &p->levels[level < p->count ? level : p->count - 1]};
     }
 }
@@ -153,8 +154,9 @@ static otx_status
 run_levels(otx_elastic *e, otx_elastic_stats *stats)
 {
     const otx_elastic_options *o = e->options;
-    const int32_t levels =
-        o->levels < e->pyramids[0].count ? o->levels : e->pyramids[0].count;
+    const int32_t levels = o->levels < e->pictures.pyramids[0].count
+                               ? o->levels
+                               : e->pictures.pyramids[0].count;
     int32_t done = 0;
 
     for (int32_t level = levels - 1; level >= 0; --level)
@@ -165,7 +167,7 @@ run_levels(otx_elastic *e, otx_elastic_stats *stats)
         look_at(e, level);
         if (done < until)
         {
-            OTX_TRY(total_energy(e, &e->energy));
+            OTX_TRY(total_energy(e, &e->energy.total));
             OTX_TRY(otx_elastic_judge(e));
         }
         for (; done < until && improved; ++done)
@@ -207,12 +209,13 @@ build_pyramids(otx_elastic *e)
 {
     otx_arena *arena = e->run->scratch;
 
-    e->pyramids = OTX_NEW(arena, otx_pyramid, e->exemplar_count);
-    e->views = OTX_NEW(arena, otx_elastic_view, e->exemplar_count);
+    e->pictures.pyramids = OTX_NEW(arena, otx_pyramid, e->pictures.count);
+    e->pictures.views = OTX_NEW(arena, otx_elastic_view, e->pictures.count);
     OTX_TRY(otx_run_ok(e->run));
-    for (int32_t k = 0; k < e->exemplar_count; ++k)
+    for (int32_t k = 0; k < e->pictures.count; ++k)
         OTX_TRY(otx_pyramid_build(
-            e->run, arena, &e->exemplars[k].match, &e->pyramids[k]));
+            e->run, arena, &e->pictures.exemplars[k].match,
+            &e->pictures.pyramids[k]));
     look_at(e, 0);
     return OSDTEX_OK;
 }
@@ -223,14 +226,14 @@ list_sources(otx_elastic *e)
     const uint8_t *of = e->options->patch_exemplar;
 
     for (int32_t v = 0; v < e->sheet.count; ++v)
-        e->source[v] = of ? of[e->sheet.patches[v]] : 0;
+        e->pictures.source[v] = of ? of[e->sheet.patches[v]] : 0;
 }
 
 static bool
 has_contrast(const otx_elastic *e)
 {
-    for (int32_t k = 0; k < e->exemplar_count; ++k)
-        if (e->exemplars[k].match_sigma > 0.0)
+    for (int32_t k = 0; k < e->pictures.count; ++k)
+        if (e->pictures.exemplars[k].match_sigma > 0.0)
             return true;
     return false;
 }
@@ -241,21 +244,22 @@ allocate(otx_elastic *e)
     otx_arena *arena = e->run->scratch;
     const int32_t n = e->sheet.count;
 
-    e->energies = OTX_NEW(arena, double, e->sheet.seam_count);
-    e->terms = OTX_NEW(arena, double, n);
-    e->step = OTX_NEW(arena, otx_vec2, n);
-    e->b = OTX_NEW(arena, otx_vec2, n);
-    e->diagonal = OTX_NEW(arena, otx_vec2, n);
-    e->moved = OTX_NEW(arena, otx_vec2, n);
-    e->held = OTX_NEW(arena, uint8_t, n);
-    e->source = OTX_NEW(arena, uint8_t, n);
-    e->before = OTX_NEW(arena, double, e->sheet.face_count);
-    e->badness = OTX_NEW(arena, double, e->sheet.face_count);
-    e->end_first = OTX_ZNEW(arena, int32_t, (int64_t)n + 1);
-    e->ends = OTX_NEW(arena, otx_elastic_end, 4 * (int64_t)e->sheet.seam_count);
-    e->shares =
+    e->energy.seams = OTX_NEW(arena, double, e->sheet.seam_count);
+    e->energy.terms = OTX_NEW(arena, double, n);
+    e->system.step = OTX_NEW(arena, otx_vec2, n);
+    e->system.b = OTX_NEW(arena, otx_vec2, n);
+    e->system.diagonal = OTX_NEW(arena, otx_vec2, n);
+    e->guard.from = OTX_NEW(arena, otx_vec2, n);
+    e->guard.held = OTX_NEW(arena, uint8_t, n);
+    e->pictures.source = OTX_NEW(arena, uint8_t, n);
+    e->guard.before = OTX_NEW(arena, double, e->sheet.face_count);
+    e->guard.badness = OTX_NEW(arena, double, e->sheet.face_count);
+    e->ends.first = OTX_ZNEW(arena, int32_t, (int64_t)n + 2);
+    e->ends.items =
+        OTX_NEW(arena, otx_elastic_end, 4 * (int64_t)e->sheet.seam_count);
+    e->ends.shares =
         OTX_NEW(arena, otx_elastic_share, 4 * (int64_t)e->sheet.seam_count);
-    e->end_at = OTX_NEW(arena, int32_t, 4 * (int64_t)e->sheet.seam_count);
+    e->ends.of = OTX_NEW(arena, int32_t, 4 * (int64_t)e->sheet.seam_count);
     OTX_TRY(otx_run_ok(e->run));
     if (otx_rigid_fans_build(arena, &e->sheet.rigid, &e->fans) != OSDTEX_OK)
         return otx_fail_memory(e->run, "relax");
@@ -274,9 +278,10 @@ otx_elastic_run(
     otx_elastic e = {
         .run = run,
         .surface = surface,
-        .exemplars = exemplars,
-        .exemplar_count = options->patch_exemplar ? options->exemplar_count : 1,
         .options = options,
+        .pictures =
+            {.exemplars = exemplars,
+             .count = options->patch_exemplar ? options->exemplar_count : 1},
     };
     uint8_t *inside = NULL;
 

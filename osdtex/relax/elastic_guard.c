@@ -54,7 +54,7 @@ was_touched(const otx_elastic *e, int32_t face, int32_t round)
     const otx_sheet *s = &e->sheet;
 
     for (int32_t c = s->first[face]; c < s->first[face + 1]; ++c)
-        if (e->held[s->corners[c]] == round)
+        if (e->guard.held[s->corners[c]] == round)
             return true;
     return false;
 }
@@ -101,17 +101,17 @@ take_back_once(otx_elastic *e, int32_t round)
 
     for (int32_t f = 0; f < s->face_count; ++f)
     {
-        if (e->badness[f] <= e->options->stretch ||
-            e->badness[f] <= e->before[f])
+        if (e->guard.badness[f] <= e->options->stretch ||
+            e->guard.badness[f] <= e->guard.before[f])
             continue;
         for (int32_t c = s->first[f]; c < s->first[f + 1]; ++c)
         {
             const int32_t v = s->corners[c];
 
-            if (e->held[v])
+            if (e->guard.held[v])
                 continue;
-            e->held[v] = (uint8_t)round;
-            s->at[v] = e->moved[v];
+            e->guard.held[v] = (uint8_t)round;
+            s->at[v] = e->guard.from[v];
             ++refused;
         }
     }
@@ -129,20 +129,20 @@ take_back(otx_elastic *e, int64_t *refused)
     {
         int64_t now;
 
-        OTX_TRY(judge(e, round - 1, e->badness));
+        OTX_TRY(judge(e, round - 1, e->guard.badness));
         now = take_back_once(e, round);
         *refused += now;
         if (now == 0)
             return OSDTEX_OK;
     }
-    memcpy(s->at, e->moved, (size_t)s->count * sizeof *s->at);
+    memcpy(s->at, e->guard.from, (size_t)s->count * sizeof *s->at);
     return OSDTEX_OK;
 }
 
 otx_status
 otx_elastic_judge(otx_elastic *e)
 {
-    return judge(e, 0, e->badness);
+    return judge(e, 0, e->guard.badness);
 }
 
 static double
@@ -156,15 +156,16 @@ otx_elastic_move(otx_elastic *e, double share, double longest, int64_t *refused)
 {
     otx_sheet *s = &e->sheet;
 
-    memset(e->held, 0, (size_t)s->count);
+    memset(e->guard.held, 0, (size_t)s->count);
     for (int32_t v = 0; v < s->count; ++v)
     {
-        const otx_exemplar *from = &e->exemplars[e->source[v]];
-        const double length = otx_vec2_length(e->step[v]);
+        const otx_exemplar *from =
+            &e->pictures.exemplars[e->pictures.source[v]];
+        const double length = otx_vec2_length(e->system.step[v]);
         const double scale =
             length > longest ? share * longest / length : share;
-        const otx_vec2 p =
-            otx_vec2_add(e->moved[v], otx_vec2_scale(scale, e->step[v]));
+        const otx_vec2 p = otx_vec2_add(
+            e->guard.from[v], otx_vec2_scale(scale, e->system.step[v]));
 
         s->at[v].x = inside(p.x, from->wrap_x, from->match.width);
         s->at[v].y = inside(p.y, from->wrap_y, from->match.height);

@@ -42,29 +42,60 @@ typedef struct otx_elastic_view
     const otx_image *image;
 } otx_elastic_view;
 
+/* What seams compare. */
+typedef struct otx_elastic_pictures
+{
+    const otx_exemplar *exemplars;
+    int32_t count;
+    otx_pyramid *pyramids;
+    otx_elastic_view *views;
+    uint8_t *source; /* [sheet.count] the exemplar of each variable */
+} otx_elastic_pictures;
+
+/* Ends of seams by their variables. */
+typedef struct otx_elastic_ends
+{
+    int32_t *first; /* [sheet.count + 2] */
+    otx_elastic_end *items;
+    otx_elastic_share *shares; /* like items */
+    int32_t *of; /* [4 * seam_count] where each end of a seam lies */
+} otx_elastic_ends;
+
+typedef struct otx_elastic_energy
+{
+    double *seams; /* [seam_count] */
+    double *terms; /* [sheet.count] of rigidity */
+    double total;  /* before the round */
+} otx_elastic_energy;
+
+/* [sheet.count] each: the equations of a round and its step. */
+typedef struct otx_elastic_system
+{
+    otx_vec2 *step, *b, *diagonal;
+} otx_elastic_system;
+
+/* What a step is held against. Badness is the larger of stretch and its
+ * inverse. */
+typedef struct otx_elastic_guard
+{
+    otx_vec2 *from;  /* [sheet.count] positions before the step */
+    uint8_t *held;   /* [sheet.count] variables taken back this round */
+    double *before;  /* [face_count] badness of each face before the round */
+    double *badness; /* [face_count] and now */
+} otx_elastic_guard;
+
 typedef struct otx_elastic
 {
     otx_run *run;
     const otx_surface *surface;
-    const otx_exemplar *exemplars;
-    int32_t exemplar_count;
     const otx_elastic_options *options;
+    otx_elastic_pictures pictures;
     otx_sheet sheet;
     otx_rigid_fans fans;
-    uint8_t *source; /* [count] the exemplar of each variable */
-    otx_pyramid *pyramids;
-    otx_elastic_view *views;
-    double *energies;   /* [seam_count] */
-    int32_t *end_first; /* [count + 1] offsets into ends */
-    otx_elastic_end *ends;
-    otx_elastic_share *shares; /* like ends */
-    int32_t *end_at; /* [4 * seam_count] where each end of a seam lies */
-    otx_vec2 *step, *b, *diagonal, *moved;
-    double *terms;   /* [count] of the rigid energy */
-    double energy;   /* before the round */
-    uint8_t *held;   /* variables taken back this round */
-    double *before;  /* [face_count] badness of each face before the round */
-    double *badness; /* [face_count] and now */
+    otx_elastic_ends ends;
+    otx_elastic_energy energy;
+    otx_elastic_system system;
+    otx_elastic_guard guard;
 } otx_elastic;
 
 /* Runs a body over blocks of `size` of `count`. Bodies do not fail. */
@@ -112,12 +143,12 @@ void otx_elastic_list_ends(otx_elastic *e);
  * MEMORY. */
 otx_status otx_elastic_find_step(otx_elastic *e, otx_vec2 **step);
 
-/* Judges all faces, into e->badness. */
+/* Judges all faces, into e->guard.badness. */
 otx_status otx_elastic_judge(otx_elastic *e);
 
-/* Moves by `share` of e->step, each variable by `longest` texels at most, from
- * e->moved (the state before). Moves that would flip a face or stretch it past
- * the limit are taken back, and counted. */
+/* Moves by `share` of e->system.step, each variable by `longest` texels at
+ * most, from e->guard.from (the state before). Moves that would flip a face or
+ * stretch it past the limit are taken back, and counted. */
 otx_status otx_elastic_move(
     otx_elastic *e, double share, double longest, int64_t *refused);
 

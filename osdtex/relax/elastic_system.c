@@ -5,6 +5,8 @@
  * conjugate gradients costs the same however finely the seam was sampled. */
 #include "relax/elastic_state.h"
 
+#include "base/csr.h"
+
 #include <string.h>
 
 enum
@@ -40,8 +42,10 @@ side_of(const otx_elastic_view *from, const otx_vec2 *at, const int32_t ends[2])
 otx_elastic_flanks
 otx_elastic_flanks_of(const otx_elastic *e, const otx_sheet_seam *seam)
 {
-    const otx_elastic_view *a = &e->views[e->source[seam->a[0]]];
-    const otx_elastic_view *b = &e->views[e->source[seam->b[0]]];
+    const otx_elastic_view *a =
+        &e->pictures.views[e->pictures.source[seam->a[0]]];
+    const otx_elastic_view *b =
+        &e->pictures.views[e->pictures.source[seam->b[0]]];
     const double sa = a->exemplar->match_sigma, sb = b->exemplar->match_sigma;
     const double sq = a == b ? sa * sa : 0.5 * (sa * sa + sb * sb);
 
@@ -97,14 +101,14 @@ linearise(otx_elastic *e, int64_t index)
     add_samples(e, &e->sheet.seams[index], &block);
     for (int end = 0; end < 4; ++end)
     {
-        const int32_t at = e->end_at[4 * index + end];
+        const int32_t at = e->ends.of[4 * index + end];
         const int x = 2 * end, y = x + 1;
 
-        e->shares[at] = (otx_elastic_share){
+        e->ends.shares[at] = (otx_elastic_share){
             {block.g[x], block.g[y]}, {block.h[x][x], block.h[y][y]}};
         for (int i = x; i <= y; ++i)
             for (int j = 0; j < 8; ++j)
-                e->ends[at].row[i - x][j] =
+                e->ends.items[at].row[i - x][j] =
                     (float)(i < j ? block.h[i][j] : block.h[j][i]);
     }
 }
@@ -162,11 +166,11 @@ apply(
     for (int32_t v = first; v < end; ++v)
     {
         otx_vec2 sum = {
-            stiffness * out[v].x + DAMPING * e->diagonal[v].x * x[v].x,
-            stiffness * out[v].y + DAMPING * e->diagonal[v].y * x[v].y};
+            stiffness * out[v].x + DAMPING * e->system.diagonal[v].x * x[v].x,
+            stiffness * out[v].y + DAMPING * e->system.diagonal[v].y * x[v].y};
 
-        for (int32_t i = e->end_first[v]; i < e->end_first[v + 1]; ++i)
-            sum = otx_vec2_add(sum, end_product(&e->ends[i], x));
+        for (int32_t i = e->ends.first[v]; i < e->ends.first[v + 1]; ++i)
+            sum = otx_vec2_add(sum, end_product(&e->ends.items[i], x));
         out[v] = sum;
     }
     hold_rim(&e->sheet, first, end, out);
@@ -186,19 +190,19 @@ prepare_rows(void *context, int64_t index, otx_worker *worker)
     for (int32_t v = first; v < end; ++v)
     {
         const double d = stiffness * s->rigid.diagonal[v] + 1e-9;
-        otx_vec2 b =
-            otx_vec2_scale(stiffness, otx_vec2_sub(e->b[v], e->step[v]));
+        otx_vec2 b = otx_vec2_scale(
+            stiffness, otx_vec2_sub(e->system.b[v], e->system.step[v]));
         otx_vec2 diagonal = {d, d};
 
-        for (int32_t i = e->end_first[v]; i < e->end_first[v + 1]; ++i)
+        for (int32_t i = e->ends.first[v]; i < e->ends.first[v + 1]; ++i)
         {
-            b = otx_vec2_sub(b, e->shares[i].g);
-            diagonal = otx_vec2_add(diagonal, e->shares[i].diagonal);
+            b = otx_vec2_sub(b, e->ends.shares[i].g);
+            diagonal = otx_vec2_add(diagonal, e->ends.shares[i].diagonal);
         }
-        e->b[v] = b;
-        e->diagonal[v] = diagonal;
+        e->system.b[v] = b;
+        e->system.diagonal[v] = diagonal;
     }
-    hold_rim(s, first, end, e->b);
+    hold_rim(s, first, end, e->system.b);
     return OSDTEX_OK;
 }
 
@@ -220,7 +224,7 @@ otx_elastic_find_step(otx_elastic *e, otx_vec2 **step)
         .count = s->count,
         .apply = apply,
         .context = e,
-        .diagonal = e->diagonal,
+        .diagonal = e->system.diagonal,
         .rounds = CG_ROUNDS,
         .tolerance = CG_TOLERANCE,
         .pool = e->run->pool};
@@ -231,12 +235,11 @@ otx_elastic_find_step(otx_elastic *e, otx_vec2 **step)
     OTX_TRY(otx_run_ok(e->run));
     return otx_loop_result(
         e->run, "relax",
-        otx_rigid_solve(e->run->scratch, &system, e->b, *step));
+        otx_rigid_solve(e->run->scratch, &system, e->system.b, *step));
 }
 
 /* ---- which seams end where ---- */
 
-/* Counts, sums, fills; filling shifts the offsets, which are put back. */
 void
 otx_elastic_list_ends(otx_elastic *e)
 {
@@ -247,22 +250,18 @@ otx_elastic_list_ends(otx_elastic *e)
     {
         otx_elastic_variables(&s->seams[i], v);
         for (int k = 0; k < 4; ++k)
-            ++e->end_first[v[k] + 1];
+            otx_csr_count(e->ends.first, v[k], 1);
     }
-    for (int32_t i = 0; i < s->count; ++i)
-        e->end_first[i + 1] += e->end_first[i];
+    otx_csr_sum(e->ends.first, s->count);
     for (int32_t i = 0; i < s->seam_count; ++i)
     {
         otx_elastic_variables(&s->seams[i], v);
         for (int k = 0; k < 4; ++k)
         {
-            const int32_t at = e->end_first[v[k]]++;
+            const int32_t at = otx_csr_place(e->ends.first, v[k]);
 
-            e->end_at[4 * (int64_t)i + k] = at;
-            memcpy(e->ends[at].v, v, sizeof v);
+            e->ends.of[4 * (int64_t)i + k] = at;
+            memcpy(e->ends.items[at].v, v, sizeof v);
         }
     }
-    for (int32_t i = s->count; i > 0; --i)
-        e->end_first[i] = e->end_first[i - 1];
-    e->end_first[0] = 0;
 }

@@ -1,29 +1,26 @@
 /* sheet.c -- variables from (vertex, patch) pairs. */
 #include "relax/sheet.h"
 
+#include "base/csr.h"
 #include "relax/sheet_check.h"
 
 #include <assert.h>
 
-/* Corners of every vertex: CSR by counting. */
+/* Corners of every vertex. */
 static bool
 vertex_corners(
     const otx_level *leaf, otx_arena *arena, int32_t **first, int32_t **corner)
 {
-    int32_t *start = OTX_ZNEW(arena, int32_t, leaf->vert_count + 1);
+    int32_t *start = OTX_ZNEW(arena, int32_t, (int64_t)leaf->vert_count + 2);
     int32_t *list = OTX_NEW(arena, int32_t, leaf->corner_count);
 
     if (!start || !list)
         return false;
     for (int32_t c = 0; c < leaf->corner_count; ++c)
-        ++start[leaf->face_verts[c] + 1];
-    for (int32_t v = 0; v < leaf->vert_count; ++v)
-        start[v + 1] += start[v];
+        otx_csr_count(start, leaf->face_verts[c], 1);
+    otx_csr_sum(start, leaf->vert_count);
     for (int32_t c = 0; c < leaf->corner_count; ++c)
-        list[start[leaf->face_verts[c]]++] = c;
-    for (int32_t v = leaf->vert_count; v > 0; --v)
-        start[v] = start[v - 1];
-    start[0] = 0;
+        list[otx_csr_place(start, leaf->face_verts[c])] = c;
     *first = start;
     *corner = list;
     return true;

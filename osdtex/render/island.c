@@ -2,6 +2,7 @@
 #include "render/island.h"
 
 #include "base/random.h"
+#include "base/union_find.h"
 
 #include <string.h>
 
@@ -176,17 +177,6 @@ otx_island_seams(
     return OSDTEX_OK;
 }
 
-static int32_t
-find_root(int32_t *parent, int32_t face)
-{
-    while (parent[face] != face)
-    {
-        parent[face] = parent[parent[face]];
-        face = parent[face];
-    }
-    return face;
-}
-
 otx_status
 otx_island_label(
     otx_run *run, otx_arena *arena, const otx_scene *scene, const int32_t *twin,
@@ -205,16 +195,10 @@ otx_island_label(
         parent[f] = f;
     for (int32_t c = 0; c < scene->corner_count; ++c)
         if (twin[c] >= 0 && !seam[c])
-        {
-            const int32_t a = find_root(parent, face[c]);
-            const int32_t b = find_root(parent, face[twin[c]]);
-
-            /* The lower face stays the root, so it comes first below. */
-            parent[a > b ? a : b] = a > b ? b : a;
-        }
+            otx_union_find_join(parent, face[c], face[twin[c]]);
     for (int32_t f = 0; f < scene->face_count; ++f)
     {
-        const int32_t root = find_root(parent, f);
+        const int32_t root = otx_union_find_root(parent, f);
 
         labels[f] = root == f ? count++ : labels[root];
     }

@@ -1,6 +1,8 @@
 /* overlay.c -- lines and dots drawn on a model. */
 #include "render/overlay.h"
 
+#include "base/csr.h"
+
 #include <string.h>
 
 static const float INK[3] = {0.010f, 0.018f, 0.045f};
@@ -25,12 +27,11 @@ index_lines(otx_run *run, const otx_scene *scene, otx_overlay_index *out)
             return otx_fail(
                 run, OSDTEX_ERROR_ARGUMENT, "render", OTX_NOWHERE,
                 "a line lies on a face that is not there");
-        ++first[o->lines[i].face + 2];
+        otx_csr_count(first, o->lines[i].face, 1);
     }
-    for (int32_t f = 0; f < scene->face_count; ++f)
-        first[f + 2] += first[f + 1];
+    otx_csr_sum(first, scene->face_count);
     for (int32_t i = 0; i < o->line_count; ++i)
-        lines[first[o->lines[i].face + 1]++] = i;
+        lines[otx_csr_place(first, o->lines[i].face)] = i;
     out->face_first_line = first;
     out->face_lines = lines;
     return OSDTEX_OK;

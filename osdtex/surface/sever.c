@@ -8,6 +8,7 @@
  * until nothing is left to part. */
 #include "surface/sever.h"
 
+#include "base/union_find.h"
 #include "surface/topology.h"
 
 #include <string.h>
@@ -62,26 +63,12 @@ is_manifold(otx_arena *arena, const otx_topology *t, bool *out)
     return true;
 }
 
-static int32_t
-root_of(int32_t *parent, int32_t c)
-{
-    while (parent[c] != c)
-        c = parent[c] = parent[parent[c]];
-    return c;
-}
-
-/* The smaller corner stays the root, so that sets are in corner order. */
 static void
 join(sever *s, int32_t a, int32_t b)
 {
     if (s->loose[a] || s->loose[b])
         return;
-    a = root_of(s->parent, a);
-    b = root_of(s->parent, b);
-    if (a < b)
-        s->parent[b] = a;
-    else
-        s->parent[a] = b;
+    otx_union_find_join(s->parent, a, b);
 }
 
 static void
@@ -114,7 +101,8 @@ number_sets(sever *s, uint8_t *taken)
         s->source[v] = v;
     for (int32_t c = 0; c < corners; ++c)
     {
-        const int32_t root = root_of(s->parent, c), v = s->face_verts[c];
+        const int32_t root = otx_union_find_root(s->parent, c),
+                      v = s->face_verts[c];
 
         if (root != c)
             s->verts[c] = s->verts[root];

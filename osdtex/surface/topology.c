@@ -5,6 +5,8 @@
  * would do, but not with an order that is the same on every machine. */
 #include "surface/topology.h"
 
+#include "base/csr.h"
+
 #include <string.h>
 
 static int32_t
@@ -27,22 +29,21 @@ high_vert(const otx_topology *t, int32_t corner)
 
 /* Stable counting sort of `in` (NULL: 0, 1, …) by `key` into `out`.
  *
- *   first  [vert_count + 1], overwritten */
+ *   first  [vert_count + 2], overwritten */
 static void
 sort_corners(
     const otx_topology *t, int32_t (*key)(const otx_topology *, int32_t),
     const int32_t *in, int32_t *out, int32_t *first)
 {
-    memset(first, 0, ((size_t)t->vert_count + 1) * sizeof *first);
+    memset(first, 0, ((size_t)t->vert_count + 2) * sizeof *first);
     for (int32_t i = 0; i < t->corner_count; ++i)
-        ++first[key(t, i) + 1];
-    for (int32_t v = 0; v < t->vert_count; ++v)
-        first[v + 1] += first[v];
+        otx_csr_count(first, key(t, i), 1);
+    otx_csr_sum(first, t->vert_count);
     for (int32_t i = 0; i < t->corner_count; ++i)
     {
         const int32_t corner = in ? in[i] : i;
 
-        out[first[key(t, corner)]++] = corner;
+        out[otx_csr_place(first, key(t, corner))] = corner;
     }
 }
 
@@ -89,7 +90,7 @@ otx_topology_build(
         .edge_corners = OTX_NEW(arena, int32_t, corner_count),
         .corner_edge = OTX_NEW(arena, int32_t, corner_count),
         .corner_face = OTX_NEW(arena, int32_t, corner_count)};
-    int32_t *first = OTX_NEW(arena, int32_t, (size_t)vert_count + 1);
+    int32_t *first = OTX_NEW(arena, int32_t, (size_t)vert_count + 2);
 
     if (!t.edge_verts || !t.edge_corner_first || !t.edge_corners ||
         !t.corner_edge || !t.corner_face || !first)

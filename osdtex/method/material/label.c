@@ -6,6 +6,8 @@
  * face lies inside the picture, which cuts the surface into windows. */
 #include "method/material/material.h"
 
+#include "base/csr.h"
+
 #include <string.h>
 
 /* Cells closer than this are the same. */
@@ -212,15 +214,13 @@ prepare(otx_run *run, const otx_level *leaf, labeller *l)
     l->faces = OTX_NEW(run->scratch, int32_t, leaf->corner_count);
     l->queue = OTX_NEW(run->scratch, int32_t, leaf->face_count);
     OTX_TRY(otx_run_ok(run));
-    /* Counted two places on, so that filling in leaves the starts behind. */
     for (int32_t i = 0; i < leaf->corner_count; ++i)
-        ++l->first[leaf->face_verts[i] + 2];
-    for (int32_t v = 1; v <= leaf->vert_count + 1; ++v)
-        l->first[v] += l->first[v - 1];
+        otx_csr_count(l->first, leaf->face_verts[i], 1);
+    otx_csr_sum(l->first, leaf->vert_count);
     for (int32_t f = 0; f < leaf->face_count; ++f)
         for (int32_t i = leaf->face_first[f]; i < leaf->face_first[f + 1]; ++i)
         {
-            const int32_t at = l->first[leaf->face_verts[i] + 1]++;
+            const int32_t at = otx_csr_place(l->first, leaf->face_verts[i]);
 
             l->corners[at] = i;
             l->faces[at] = f;

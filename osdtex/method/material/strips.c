@@ -1,6 +1,7 @@
 /* strips.c -- the courses on a surface, one by one. */
 #include "method/material/strips.h"
 
+#include "base/csr.h"
 #include "base/pqueue.h"
 #include "mapping/seam.h"
 
@@ -219,19 +220,17 @@ prepare_tour(const otx_strips *s, tour *t)
         OTX_ZNEW(scratch, int32_t, s->count + 2),
         OTX_NEW(scratch, int32_t, 2 * (int64_t)s->contact_count),
         OTX_ZNEW(scratch, uint8_t, s->count), otx_pqueue_make(scratch)};
-    if (!t->first || !t->list || !t->seen)
-        return OSDTEX_ERROR_MEMORY;
+    OTX_TRY(otx_run_ok(s->m->job->run));
     for (int32_t i = 0; i < s->contact_count; ++i)
     {
-        ++t->first[s->contacts[i].a + 2];
-        ++t->first[s->contacts[i].b + 2];
+        otx_csr_count(t->first, s->contacts[i].a, 1);
+        otx_csr_count(t->first, s->contacts[i].b, 1);
     }
-    for (int32_t i = 1; i < s->count + 2; ++i)
-        t->first[i] += t->first[i - 1];
+    otx_csr_sum(t->first, s->count);
     for (int32_t i = 0; i < s->contact_count; ++i)
     {
-        t->list[t->first[s->contacts[i].a + 1]++] = i;
-        t->list[t->first[s->contacts[i].b + 1]++] = i;
+        t->list[otx_csr_place(t->first, s->contacts[i].a)] = i;
+        t->list[otx_csr_place(t->first, s->contacts[i].b)] = i;
     }
     return OSDTEX_OK;
 }

@@ -6,6 +6,7 @@
  * the way round ends, and closed again after a length that the exemplar has. */
 #include "method/material/strips.h"
 
+#include "base/union_find.h"
 #include "mapping/seam.h"
 #include "math/sparse.h"
 
@@ -151,14 +152,6 @@ lay_all(otx_strips *s)
     return OSDTEX_OK;
 }
 
-static int32_t
-root_of(int32_t *parent, int32_t i)
-{
-    while (parent[i] != i)
-        i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 /* Tears that share a vertex of one strip make a group. */
 static otx_status
 group_tears(otx_strips *s, otx_strip_tears *t)
@@ -185,13 +178,13 @@ group_tears(otx_strips *s, otx_strip_tears *t)
 
             if (last[v] >= 0 &&
                 s->of[t->tears[last[v]].low] == s->of[t->tears[i].low])
-                parent[root_of(parent, i)] = root_of(parent, last[v]);
+                otx_union_find_join(parent, i, last[v]);
             last[v] = i;
         }
     }
     for (int32_t i = 0; i < t->count; ++i)
     {
-        const int32_t root = root_of(parent, i);
+        const int32_t root = otx_union_find_root(parent, i);
         otx_strip_tear *tear = &t->tears[i];
 
         if (number[root] < 0)
