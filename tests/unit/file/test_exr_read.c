@@ -1,76 +1,5 @@
 /* test_exr_read.c -- EXR files as other programs write them. */
-#include "picture_support.h"
-
-/* A folder with a.exr, a noise picture, for what oiiotool makes of it. */
-typedef struct fixture
-{
-    otx_run *run;
-    test_folder folder;
-    otx_image image; /* of a.exr */
-} fixture;
-
-static int
-begin(void **state)
-{
-    fixture *f = calloc(1, sizeof *f);
-    otx_exr_options options = otx_exr_options_default();
-
-    f->run = test_run_create();
-    f->folder = test_folder_create();
-    f->image = test_noise(f->run, 100, 70, 3);
-    options.tiled = false;
-    options.full_float = true;
-    assert_int_equal(
-        test_write_exr(
-            f->run, test_path(&f->folder, "a.exr"), &f->image, &options),
-        OSDTEX_OK);
-    *state = f;
-    return 0;
-}
-
-static int
-end(void **state)
-{
-    fixture *f = *state;
-
-    test_folder_remove(&f->folder);
-    test_run_destroy(f->run);
-    free(f);
-    return 0;
-}
-
-/* Runs oiiotool in the folder; skips the test where there is none. */
-static void
-make(const fixture *f, const char *arguments)
-{
-    char command[5000];
-
-    if (!test_has_tool("oiiotool"))
-    {
-        print_message("skipped: oiiotool is not installed\n");
-        skip();
-    }
-    snprintf(command, sizeof command, "oiiotool %s", arguments);
-    if (test_shell(&f->folder, command) != 0)
-        fail_msg("%s", command);
-}
-
-static otx_picture
-read_file(const fixture *f, const char *name)
-{
-    return test_read(f->run, test_path(&f->folder, name));
-}
-
-/* What oiiotool makes, as it is read. */
-static otx_picture
-made(const fixture *f, const char *arguments)
-{
-    char line[4096];
-
-    snprintf(line, sizeof line, "%s -o b.exr", arguments);
-    make(f, line);
-    return read_file(f, "b.exr");
-}
+#include "exr_support.h"
 
 static void
 test_every_layout_is_read(void **state)
@@ -143,18 +72,6 @@ test_level_0_of_a_mip_map_is_read(void **state)
 }
 
 static void
-test_layers_are_found_and_named(void **state)
-{
-    const fixture *f = *state;
-    const otx_picture picture = made(
-        f, "a.exr --chnames diffuse.R,diffuse.G,diffuse.B -d half "
-           "a.exr --ch R --chnames Z --chappend");
-    test_same_image(&picture.image, &f->image, 1e-3);
-    assert_string_equal(picture.layer, "diffuse");
-    assert_non_null(strstr(test_last_message(f->run), "diffuse"));
-}
-
-static void
 test_luminance_becomes_gray(void **state)
 {
     const fixture *f = *state;
@@ -175,31 +92,6 @@ test_alpha_is_kept(void **state)
     assert_int_equal(picture.image.channels, 4);
     assert_float_equal(picture.image.pixels[3], 0.5, 0.0);
     assert_float_equal(picture.image.pixels[0], f->image.pixels[0], 0.0);
-}
-
-static void
-test_first_part_with_color_is_used(void **state)
-{
-    const fixture *f = *state;
-    const otx_picture picture =
-        made(f, "a.exr --ch R --chnames Z a.exr --siappend a.exr --siappend");
-    assert_int_equal(picture.part, 1);
-    test_same_image(&picture.image, &f->image, 0.0);
-    assert_non_null(strstr(test_last_message(f->run), "part 1"));
-}
-
-/* Findings of one file and kind fold, so each refusal has a name of its own. */
-static void
-refuse(
-    const fixture *f, const char *name, otx_status expected, const char *word)
-{
-    otx_picture picture;
-
-    assert_int_equal(
-        otx_picture_read(f->run, test_path(&f->folder, name), &picture),
-        expected);
-    if (!strstr(test_last_message(f->run), word))
-        fail_msg("no \"%s\" in: %s", word, test_last_message(f->run));
 }
 
 /* As OpenEXR itself decodes them: scanlines and tiles, half and float, with
@@ -277,85 +169,6 @@ test_luminance_with_chroma_is_read(void **state)
                         otx_image_at(&picture.image, x, H - 1 - y)[c],
                         rgb[3 * (y * W + x) + c], 0.05);
     }
-}
-
-/* Colours of another kind in front of, and beside, the picture. */
-static void
-test_the_right_layer_is_read(void **state)
-{
-    static const struct
-    {
-        const char *arguments; /* a.exr is the picture, g a grey one */
-        const char *layer;     /* NULL plain */
-    } cases[] = {
-        {"g.exr --chnames N.R,N.G,N.B a.exr --chappend", NULL},
-        {"g.exr --chnames crypto00.R,crypto00.G,crypto00.B a.exr --chnames "
-         "rgba.R,rgba.G,rgba.B --chappend",
-         "rgba"},
-        {"g.exr --chnames diffuse.R,diffuse.G,diffuse.B a.exr --chnames "
-         "beauty.R,beauty.G,beauty.B --chappend",
-         "beauty"},
-        {"g.exr --chnames V.Normal.R,V.Normal.G,V.Normal.B a.exr --chnames "
-         "V.Combined.R,V.Combined.G,V.Combined.B --chappend",
-         "V.Combined"},
-        {"g.exr --attrib oiio:subimagename crypto00 --chnames "
-         "crypto00.R,crypto00.G,crypto00.B a.exr --attrib oiio:subimagename "
-         "diffuse --siappend",
-         "diffuse"},
-        {"g.exr --attrib oiio:subimagename N a.exr --attrib "
-         "oiio:subimagename main --siappend",
-         "main"},
-    };
-    const fixture *f = *state;
-
-    make(f, "--create 100x70 3 -d half -o g.exr");
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
-    {
-        const otx_picture picture = made(f, cases[i].arguments);
-
-        test_same_image(&picture.image, &f->image, 1e-3);
-        if (cases[i].layer)
-            assert_string_equal(picture.layer, cases[i].layer);
-        else
-            assert_null(picture.layer);
-    }
-}
-
-/* Several that may be meant, none that can be: they are listed, and taken when
- * they are asked for. */
-static void
-test_unclear_layers_are_listed(void **state)
-{
-    const fixture *f = *state;
-    otx_picture picture;
-
-    make(
-        f, "a.exr --chnames key.R,key.G,key.B a.exr --mulc 0.5 --chnames "
-           "fill.R,fill.G,fill.B --chappend -d float -o b.exr");
-    refuse(f, "b.exr", OSDTEX_ERROR_SUPPORT, "layer: fill, key");
-    make(f, "a.exr --chnames N.R,N.G,N.B -o c.exr");
-    refuse(f, "c.exr", OSDTEX_ERROR_SUPPORT, "layer: N");
-    assert_int_equal(
-        otx_picture_read_layer(
-            f->run, test_path(&f->folder, "b.exr"), "key", &picture),
-        OSDTEX_OK);
-    test_same_image(&picture.image, &f->image, 0.0);
-    assert_int_equal(
-        otx_picture_read_layer(
-            f->run, test_path(&f->folder, "b.exr"), "rim", &picture),
-        OSDTEX_ERROR_ARGUMENT);
-    assert_non_null(strstr(test_last_message(f->run), "it has fill, key"));
-}
-
-static void
-test_uint_channels_are_numbers(void **state)
-{
-    const fixture *f = *state;
-    const otx_picture picture =
-        made(f, "--create 5x3 3 --addc 1,0,1 -d uint32");
-    assert_int_equal(picture.bits, 32);
-    assert_float_equal(picture.image.pixels[0], 4294967295.0, 256.0);
-    assert_float_equal(picture.image.pixels[1], 0.0, 0.0);
 }
 
 /* Display windows: crops of what is stored, and what is stored being less. */
@@ -512,15 +325,10 @@ main(void)
         TEST(test_every_layout_is_read),
         TEST(test_first_row_of_the_file_is_on_top),
         TEST(test_level_0_of_a_mip_map_is_read),
-        TEST(test_layers_are_found_and_named),
         TEST(test_luminance_becomes_gray),
         TEST(test_alpha_is_kept),
-        TEST(test_first_part_with_color_is_used),
         TEST(test_dwa_is_read),
         TEST(test_luminance_with_chroma_is_read),
-        TEST(test_the_right_layer_is_read),
-        TEST(test_unclear_layers_are_listed),
-        TEST(test_uint_channels_are_numbers),
         TEST(test_picture_is_what_is_stored_and_shown),
         TEST(test_what_is_not_read_is_said),
         TEST(test_sizes_are_limited_before_memory_is_taken),

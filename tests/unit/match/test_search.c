@@ -7,8 +7,7 @@
 
 enum
 {
-    ANGLES = 19,
-    MAX_PIXELS = 4096
+    ANGLES = 19
 };
 
 static void
@@ -30,136 +29,6 @@ expect_shift(
     if (m->wrap_y)
         dy -= m->height * floor(dy / m->height + 0.5);
     assert_true(fabs(dx) <= tolerance && fabs(dy) <= tolerance);
-}
-
-/* --------------------------------------------- Fourier against brute force */
-
-typedef struct pixels
-{
-    const otx_plane *plane;
-    int32_t count;
-    int32_t x[MAX_PIXELS], y[MAX_PIXELS];
-    float color[MAX_PIXELS][OTX_PLANE_LANES];
-} pixels;
-
-static void
-collect_pixels(void *context, const otx_mask_span *span)
-{
-    pixels *p = context;
-    const otx_plane *plane = p->plane;
-
-    for (int32_t n = 0; n < span->count; ++n)
-    {
-        const double x =
-            (span->source.x + n * span->source_step.x) / plane->pixel.x;
-        const double y =
-            (span->source.y + n * span->source_step.y) / plane->pixel.y;
-
-        assert_true(p->count < MAX_PIXELS);
-        p->x[p->count] = span->x + n;
-        p->y[p->count] = span->y;
-        otx_plane_sample(
-            plane, otx_plane_wrap(x, plane->width, plane->wrap_x),
-            otx_plane_wrap(y, plane->height, plane->wrap_y),
-            p->color[p->count++]);
-    }
-}
-
-/* Mean square over the pixels, moved by (dx, dy). */
-static double
-direct_error(const pixels *p, int32_t dx, int32_t dy)
-{
-    double sum = 0.0;
-
-    for (int32_t n = 0; n < p->count; ++n)
-    {
-        const float *t = otx_plane_at(
-            p->plane, otx_view_fold(p->x[n] + dx, p->plane->width, true),
-            otx_view_fold(p->y[n] + dy, p->plane->height, true));
-
-        for (int k = 0; k < 3; ++k)
-            sum += (double)(p->color[n][k] - t[k]) *
-                   (double)(p->color[n][k] - t[k]);
-    }
-    return sum / p->count;
-}
-
-static void
-check_map(int32_t width, int32_t height, bool wrap, int32_t level, double cell)
-{
-    otx_run *run = test_run_create();
-    const otx_image image = scene_exemplar(run, width, height);
-    otx_matcher *matcher = scene_matcher(run, &image, wrap);
-    const otx_plane *plane = &matcher->planes[level];
-    const double angles[3] = {0.0, 0.5, 2.8};
-    const double bound = 1e-4 * matcher->sigma * matcher->sigma;
-    const otx_match_query query = otx_match_query_defaults(angles, 3);
-    otx_exhaust_buffers buffers;
-    pixels *p = OTX_NEW(run->arena, pixels, 1);
-    scene_mask scene;
-
-    /* The source differs from every placement that is searched. */
-    scene_mask_make(
-        &scene, (otx_vec2){-3.0, 5.0}, cell, 1.9,
-        (otx_vec2){0.5 * width, 0.4 * height});
-    assert_int_equal(
-        otx_exhaust_buffers_create(run->arena, plane, &buffers), OSDTEX_OK);
-    for (int a = 0; a < 3; ++a)
-    {
-        const otx_mask_frame frame = {
-            .rotation = otx_vec2_polar(angles[a]), .pixel = plane->pixel};
-        const otx_matcher_range range =
-            otx_matcher_shifts(matcher, &scene.mask, &query, angles[a]);
-        int compared = 0;
-
-        p->plane = plane;
-        p->count = 0;
-        otx_mask_draw(&scene.mask, &frame, collect_pixels, p);
-        const otx_exhaust_sums sums =
-            otx_exhaust_map(plane, &scene.mask, angles[a], &buffers);
-
-        assert_true(fabs(sums.weight - p->count) < 1e-6);
-        for (int32_t y = 0; y < plane->height; ++y)
-            for (int32_t x = 0; x < plane->width; ++x)
-            {
-                const int32_t dx = x - sums.base_x;
-                const int32_t dy = y - sums.base_y;
-                const otx_vec2 shift = {
-                    dx * plane->pixel.x, dy * plane->pixel.y};
-                const double value =
-                    (sums.energy +
-                     (double)buffers.map
-                         [(size_t)y * otx_fft_stride(plane->fft) + (size_t)x]) /
-                    sums.weight;
-
-                if (!otx_matcher_allows(&range, shift))
-                    continue;
-                assert_true(fabs(value - direct_error(p, dx, dy)) < bound);
-                ++compared;
-            }
-        assert_true(compared > 0);
-    }
-    test_run_destroy(run);
-}
-
-static void
-fourier_equals_brute_force(void **state)
-{
-    (void)state;
-    check_map(48, 48, true, 0, 3.0);
-    check_map(37, 41, true, 0, 2.3);
-    check_map(45, 33, true, 1, 3.7);
-    check_map(48, 48, false, 0, 3.0);
-    check_map(61, 53, false, 0, 3.1);
-    check_map(61, 53, false, 1, 4.0);
-}
-
-/* Larger than the exemplar: folded, and still the sum over all its texels. */
-static void
-a_mask_larger_than_the_tile_is_folded(void **state)
-{
-    (void)state;
-    check_map(24, 20, true, 0, 7.0);
 }
 
 /* ------------------------------------------------------ planted patches */
@@ -386,45 +255,6 @@ what_does_not_fit_gives_no_match(void **state)
     test_run_destroy(run);
 }
 
-/* ---------------------------------------------------------- corner cases */
-
-static void
-an_empty_mask_is_the_callers_mistake(void **state)
-{
-    otx_run *run = test_run_create();
-    const otx_image image = scene_exemplar(run, 32, 32);
-    otx_matcher *matcher = scene_matcher(run, &image, true);
-    const double angle = 0.0;
-    const otx_match_query query = otx_match_query_defaults(&angle, 1);
-    const otx_mask empty = {NULL, 0};
-    scene_mask scene;
-    otx_match best;
-    int32_t count;
-
-    (void)state;
-    assert_int_equal(
-        otx_matcher_search(run, matcher, &empty, &query, &best, 1, &count),
-        OSDTEX_ERROR_ARGUMENT);
-    assert_non_null(strstr(test_last_message(run), "mask is empty"));
-    assert_int_equal(count, 0);
-
-    /* All weights 0: nothing to compare, and nothing wrong. */
-    scene_mask_make(
-        &scene, (otx_vec2){0.0, 0.0}, 3.0, 0.0, (otx_vec2){0.0, 0.0});
-    for (int32_t t = 0; t < scene.mask.triangle_count; ++t)
-        memset(scene.triangles[t].weight, 0, sizeof(float[3]));
-    assert_int_equal(
-        otx_matcher_search(run, matcher, &scene.mask, &query, &best, 1, &count),
-        OSDTEX_OK);
-    assert_int_equal(count, 0);
-
-    scene.triangles[0].flat[0].x = NAN;
-    assert_int_equal(
-        otx_matcher_search(run, matcher, &scene.mask, &query, &best, 1, &count),
-        OSDTEX_ERROR_ARGUMENT);
-    test_run_destroy(run);
-}
-
 static void
 one_triangle_is_enough(void **state)
 {
@@ -448,35 +278,6 @@ one_triangle_is_enough(void **state)
     assert_int_equal(count, 1);
     assert_true(best.error < 1e-5);
     expect_shift(matcher, best.shift, (otx_vec2){20.0, 58.0}, 0.0);
-    test_run_destroy(run);
-}
-
-static void
-a_constant_exemplar_matches_everywhere(void **state)
-{
-    otx_run *run = test_run_create();
-    otx_image image = scene_exemplar(run, 32, 32);
-    const double angle = 0.5;
-    const otx_match_query query = otx_match_query_defaults(&angle, 1);
-    otx_matcher *matcher;
-    scene_mask scene;
-    otx_match best;
-    int32_t count;
-
-    (void)state;
-    for (int i = 0; i < 32 * 32 * 3; ++i)
-        image.pixels[i] = 0.25f;
-    assert_int_equal(
-        otx_matcher_create(run, &image, true, true, 0.0, 0, &matcher),
-        OSDTEX_OK);
-    scene_mask_make(
-        &scene, (otx_vec2){0.0, 0.0}, 3.0, 0.0, (otx_vec2){0.0, 0.0});
-    assert_int_equal(
-        otx_matcher_search(run, matcher, &scene.mask, &query, &best, 1, &count),
-        OSDTEX_OK);
-    assert_int_equal(count, 1);
-    assert_true(best.error == 0.0);
-    assert_true(isfinite(best.shift.x) && isfinite(best.shift.y));
     test_run_destroy(run);
 }
 
@@ -577,61 +378,19 @@ threads_do_not_change_a_bit(void **state)
     }
 }
 
-/* ------------------------------------------------------- out of memory */
-
-static void
-running_out_of_memory_is_a_status(void **state)
-{
-    test_ration b = {.left = INT64_MAX};
-    const otx_allocator_hooks hooks = test_ration_hooks(&b);
-    bool done = false;
-
-    (void)state;
-    for (int64_t allowed = 0; !done; ++allowed)
-    {
-        b.left = INT64_MAX;
-        otx_run *run = test_run_create_with(&hooks, 1);
-        const otx_image image = scene_exemplar(run, 64, 64);
-        const double angle = 0.3;
-        const otx_match_query query = otx_match_query_defaults(&angle, 1);
-        otx_matcher *matcher;
-        scene_mask scene;
-        otx_match best;
-        int32_t count;
-        otx_status status;
-
-        scene_mask_make(
-            &scene, (otx_vec2){0.0, 0.0}, 4.0, 0.0, (otx_vec2){9.0, 9.0});
-        b.left = allowed;
-        status = otx_matcher_create(run, &image, true, true, 1.0, 0, &matcher);
-        if (status == OSDTEX_OK)
-            status = otx_matcher_search(
-                run, matcher, &scene.mask, &query, &best, 1, &count);
-        assert_true(status == OSDTEX_OK || status == OSDTEX_ERROR_MEMORY);
-        done = status == OSDTEX_OK;
-        b.left = INT64_MAX;
-        test_run_destroy(run);
-    }
-}
-
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fourier_equals_brute_force),
-        cmocka_unit_test(a_mask_larger_than_the_tile_is_folded),
         cmocka_unit_test(a_planted_patch_is_found_at_full_resolution),
         cmocka_unit_test(a_planted_patch_is_found_coarse_to_fine),
         cmocka_unit_test(colours_of_another_exemplar_are_matched),
         cmocka_unit_test(gauss_newton_goes_below_the_texel),
         cmocka_unit_test(matches_stay_inside_what_does_not_tile),
         cmocka_unit_test(what_does_not_fit_gives_no_match),
-        cmocka_unit_test(an_empty_mask_is_the_callers_mistake),
         cmocka_unit_test(one_triangle_is_enough),
-        cmocka_unit_test(a_constant_exemplar_matches_everywhere),
         cmocka_unit_test(usage_moves_the_match),
         cmocka_unit_test(threads_do_not_change_a_bit),
-        cmocka_unit_test(running_out_of_memory_is_a_status),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
