@@ -14,10 +14,14 @@ static const otx_report_words MAPPING[] = {
     {"mapping.mean_edge_length", "scene units",
      "Mean length of the edges of the level that is textured."},
     {"mapping.patches", "patches", "Patches that show."},
-    {"mapping.patches_above_cage", "patches",
-     "Patches that were fitted to several faces of the cage at once."},
+    {"mapping.clusters.face_level", "",
+     "Level of the hierarchy of clusters at which single faces begin; before "
+     "are the whole surface and its regions."},
+    {"mapping.clusters.subdivision_level", "",
+     "Level of the surface that those faces are of; 0: of the cage."},
     {"mapping.patches_by_level", "patches",
-     "Patches made of faces of level 0, 1 and so on."},
+     "Patches made of clusters of level 0, 1 and so on of the hierarchy, of "
+     "method tile of the surface."},
     {"mapping.fits", "searches", "Searches for a place in the exemplar."},
     {"mapping.splits", "clusters",
      "Clusters that found no good place and were split."},

@@ -428,14 +428,17 @@ grow(scene *s)
     const double diameter = 0.5 * EXEMPLAR / s->texels;
     int32_t *faces = OTX_NEW(s->run.arena, int32_t, leaf->face_count);
     const otx_cluster all = {
-        s->leaves.level_index, leaf->face_count, faces, s->surface.area};
+        s->leaves.level_index, leaf->face_count, faces, s->surface.area, -1};
+    otx_cluster_space space;
+    const otx_growing how = {&s->leaves, 1.0, &space};
 
     if (!faces)
         return OSDTEX_ERROR_MEMORY;
     for (int32_t f = 0; f < leaf->face_count; ++f)
         faces[f] = f;
+    OTX_TRY(otx_cluster_space_create(&s->run, leaf, &space));
     return otx_cluster_grow(
-        &s->run, &s->leaves, &all, diameter * diameter, 1, 1.0, &s->clusters);
+        &s->run, &how, &all, diameter * diameter, 1, &s->clusters);
 }
 
 static otx_status

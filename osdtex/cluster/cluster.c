@@ -3,27 +3,6 @@
 
 #include <stdlib.h>
 
-otx_status
-otx_cluster_faces(otx_run *run, const otx_dual *dual, otx_cluster_list *out)
-{
-    const otx_level *level = dual->level;
-    int32_t *faces = OTX_NEW(run->arena, int32_t, level->face_count);
-
-    *out = (otx_cluster_list){0};
-    out->clusters = OTX_NEW(run->arena, otx_cluster, level->face_count);
-    OTX_TRY(otx_run_ok(run));
-    for (int32_t f = 0; f < level->face_count; ++f)
-    {
-        if (level->face_hole[f])
-            continue;
-        faces[out->count] = f;
-        out->clusters[out->count] = (otx_cluster){
-            dual->level_index, 1, &faces[out->count], dual->areas[f]};
-        ++out->count;
-    }
-    return OSDTEX_OK;
-}
-
 /* Of the leaves below a face; 0 on a hole. */
 static double
 face_area(const otx_surface *surface, int32_t level, int32_t face)
@@ -67,7 +46,7 @@ otx_cluster_children(
         faces[i] = first + i;
         out->clusters[i] = (otx_cluster){
             cluster->level + 1, 1, &faces[i],
-            face_area(surface, cluster->level + 1, first + i)};
+            face_area(surface, cluster->level + 1, first + i), -1};
     }
     out->count = count;
     return OSDTEX_OK;

@@ -5,7 +5,7 @@
  * meshes, they are grown: seeds spread over the region, every face joins the
  * nearest, and seeds move to the middle of what they got until the borders are
  * regular. Splitting a cluster of several faces grows smaller ones inside it;
- * splitting a single face gives its children. */
+ * splitting a single face gives its children. tree.h keeps both as one. */
 #ifndef OTX_CLUSTER_CLUSTER_H
 #define OTX_CLUSTER_CLUSTER_H
 
@@ -17,6 +17,7 @@ typedef struct otx_cluster
     int32_t face_count;
     const int32_t *faces; /* ascending */
     double area;          /* scene units squared */
+    int32_t node; /* in the tree that it is from (tree.h); -1 of a face below */
 } otx_cluster;
 
 typedef struct otx_cluster_list
@@ -25,22 +26,35 @@ typedef struct otx_cluster_list
     otx_cluster *clusters;
 } otx_cluster_list;
 
-/* Grows clusters of about `target_area` inside `region` (faces of
- * dual->level). Every face of the region that is not a hole lands in exactly
- * one cluster; every cluster is connected and, unless it is a single face, has
- * the topology of a disc. At least `minimum` clusters where the region has
- * that many faces.
- *
- *   bend  how much borders prefer bends, see otx_dual_step
- *
- * In run->arena. MEMORY. */
-otx_status otx_cluster_grow(
-    otx_run *run, const otx_dual *dual, const otx_cluster *region,
-    double target_area, int32_t minimum, double bend, otx_cluster_list *out);
+/* What growth works with: made once, as it was found after each use. A growth
+ * then costs what its region does, not what the level does. */
+typedef struct otx_cluster_space
+{
+    int32_t *owner, *member; /* [level face_count] */
+    double *distance;        /* [level face_count] */
+} otx_cluster_space;
 
-/* One cluster for each face of `level` that is not a hole. */
-otx_status
-otx_cluster_faces(otx_run *run, const otx_dual *dual, otx_cluster_list *out);
+/* In run->arena. MEMORY. */
+otx_status otx_cluster_space_create(
+    otx_run *run, const otx_level *level, otx_cluster_space *out);
+
+typedef struct otx_growing
+{
+    const otx_dual *dual;
+    double bend; /* how much borders prefer bends, see otx_dual_step */
+    otx_cluster_space *space; /* of dual->level */
+} otx_growing;
+
+/* Grows clusters of about `target_area` inside `region` (faces of
+ * how->dual->level). Every face of the region that is not a hole lands in
+ * exactly one cluster; every cluster is connected and, unless it is a single
+ * face, has the topology of a disc. At least `minimum` clusters where the
+ * region has that many faces. Takes about n log n for n faces of the region.
+ *
+ * In run->arena. MEMORY, CANCELLED. */
+otx_status otx_cluster_grow(
+    otx_run *run, const otx_growing *how, const otx_cluster *region,
+    double target_area, int32_t minimum, otx_cluster_list *out);
 
 /* The children of a cluster of one face, at the next level; an empty list at
  * the last level. */

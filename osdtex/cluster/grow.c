@@ -28,7 +28,7 @@ typedef struct growth
     const otx_dual *dual;
     const otx_cluster *region;
     double bend;
-    int32_t *owner;   /* seed index, UNREACHED or OUTSIDE */
+    int32_t *owner;   /* seed index, UNREACHED or OUTSIDE, the workspace's */
     double *distance; /* to the owner's seed */
     int32_t *seeds;   /* faces */
     int32_t seed_count;
@@ -90,6 +90,52 @@ spread(growth *g, otx_pqueue *queue, int32_t seed)
             if (g->owner[next] != UNREACHED && distance >= g->distance[next])
                 continue;
             reach(g, queue, next, seed, distance);
+        }
+    }
+    return otx_run_ok(g->run);
+}
+
+/* Whether a way to a face is better than what it has: shorter, or of two as
+ * short that of the lower seed. A seed keeps its own face. */
+static bool
+is_nearer(const growth *g, int32_t face, double distance, int32_t seed)
+{
+    const int32_t owner = g->owner[face];
+
+    if (owner == UNREACHED || distance < g->distance[face])
+        return true;
+    return distance == g->distance[face] && seed < owner &&
+           g->seeds[owner] != face;
+}
+
+/* Spreads from all seeds at once: what one after another would come to, in the
+ * time of one. */
+static otx_status
+spread_all(growth *g, otx_pqueue *queue)
+{
+    const otx_level *level = g->dual->level;
+    otx_pqueue_entry entry;
+
+    queue->count = 0;
+    for (int32_t s = 0; s < g->seed_count; ++s)
+        reach(g, queue, g->seeds[s], s, 0.0);
+    while (otx_pqueue_pop(queue, &entry))
+    {
+        const int32_t face = entry.item, seed = g->owner[face];
+
+        OTX_TRY(step(g));
+        if (entry.key > g->distance[face])
+            continue;
+        for (int32_t k = 0; k < otx_level_face_size(level, face); ++k)
+        {
+            const int32_t next = otx_level_neighbour(level, face, k);
+            double distance;
+
+            if (next < 0 || g->owner[next] == OUTSIDE)
+                continue;
+            distance = entry.key + otx_dual_step(g->dual, face, next, g->bend);
+            if (is_nearer(g, next, distance, seed))
+                reach(g, queue, next, seed, distance);
         }
     }
     return otx_run_ok(g->run);
@@ -220,14 +266,9 @@ lloyd(growth *g, otx_pqueue *queue)
         OTX_TRY(center_seeds(g));
         otx_arena_release(g->run->scratch, mark);
         forget(g);
-        for (int32_t s = 0; s < g->seed_count; ++s)
-        {
-            if (s % SEEDS_PER_WORD == SEEDS_PER_WORD - 1)
-                OTX_TRY(otx_progress(
-                    g->run, STAGE,
-                    (1 + round + (double)s / g->seed_count) / SPREADS));
-            OTX_TRY(spread(g, queue, s));
-        }
+        OTX_TRY(spread_all(g, queue));
+        if (g->seed_count >= SEEDS_PER_WORD)
+            OTX_TRY(otx_progress(g->run, STAGE, (2.0 + round) / SPREADS));
     }
     return OSDTEX_OK;
 }
@@ -249,7 +290,7 @@ collect(growth *g, otx_cluster_list *out)
     {
         first[s + 1] += first[s];
         out->clusters[s] =
-            (otx_cluster){g->region->level, 0, faces + first[s], 0.0};
+            (otx_cluster){g->region->level, 0, faces + first[s], 0.0, -1};
     }
     for (int32_t i = 0; i < g->region->face_count; ++i)
     {
@@ -263,25 +304,48 @@ collect(growth *g, otx_cluster_list *out)
     return OSDTEX_OK;
 }
 
+otx_status
+otx_cluster_space_create(
+    otx_run *run, const otx_level *level, otx_cluster_space *out)
+{
+    const int32_t n = level->face_count;
+
+    out->owner = OTX_NEW(run->arena, int32_t, n);
+    out->distance = OTX_NEW(run->arena, double, n);
+    out->member = OTX_ZNEW(run->arena, int32_t, n);
+    OTX_TRY(otx_run_ok(run));
+    memset(out->owner, OUTSIDE, (size_t)n * sizeof *out->owner);
+    return OSDTEX_OK;
+}
+
 /* Grows `wanted` regions; says nothing about their topology. */
 static otx_status
 grow_regions(
-    otx_run *run, const otx_dual *dual, const otx_cluster *region,
-    int32_t wanted, double bend, otx_cluster_list *out)
+    otx_run *run, const otx_growing *how, const otx_cluster *region,
+    int32_t wanted, otx_cluster_list *out)
 {
-    const int32_t n = dual->level->face_count;
-    growth g = {.run = run, .dual = dual, .region = region, .bend = bend};
+    growth g = {
+        .run = run,
+        .dual = how->dual,
+        .region = region,
+        .bend = how->bend,
+        .owner = how->space->owner,
+        .distance = how->space->distance,
+        .far = otx_pqueue_make(run->scratch),
+    };
     otx_pqueue queue = otx_pqueue_make(run->scratch);
+    otx_status status;
 
-    g.owner = OTX_NEW(run->scratch, int32_t, n);
-    g.distance = OTX_NEW(run->scratch, double, n);
     g.seeds = OTX_NEW(run->scratch, int32_t, region->face_count);
     OTX_TRY(otx_run_ok(run));
-    memset(g.owner, OUTSIDE, (size_t)n * sizeof *g.owner);
-    g.far = otx_pqueue_make(run->scratch);
-    OTX_TRY(place_seeds(&g, &queue, wanted));
-    OTX_TRY(lloyd(&g, &queue));
-    return collect(&g, out);
+    status = place_seeds(&g, &queue, wanted);
+    if (status == OSDTEX_OK)
+        status = lloyd(&g, &queue);
+    if (status == OSDTEX_OK)
+        status = collect(&g, out);
+    for (int32_t i = 0; i < region->face_count; ++i)
+        g.owner[region->faces[i]] = OUTSIDE;
+    return status;
 }
 
 /* A list that grows in the run's arena. */
@@ -329,7 +393,7 @@ without_holes(
     int32_t *faces = OTX_NEW(run->scratch, int32_t, region->face_count);
 
     OTX_TRY(otx_run_ok(run));
-    *out = (otx_cluster){region->level, 0, faces, 0.0};
+    *out = (otx_cluster){region->level, 0, faces, 0.0, -1};
     for (int32_t i = 0; i < region->face_count; ++i)
     {
         const int32_t f = region->faces[i];
@@ -355,7 +419,7 @@ append_faces(
 
         if (!append(
                 run, out, capacity,
-                (otx_cluster){region->level, 1, face, dual->areas[*face]}))
+                (otx_cluster){region->level, 1, face, dual->areas[*face], -1}))
             return otx_fail_memory(run, STAGE);
     }
     return OSDTEX_OK;
@@ -365,14 +429,15 @@ append_faces(
  * round makes such a region smaller, so it ends at single faces at worst. */
 static otx_status
 grow_discs(
-    otx_run *run, const otx_dual *dual, const otx_cluster *region,
-    int32_t wanted, double bend, otx_cluster_list *out, int32_t *capacity,
-    int32_t *member)
+    otx_run *run, const otx_growing *how, const otx_cluster *region,
+    int32_t wanted, otx_cluster_list *out, int32_t *capacity)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const otx_dual *dual = how->dual;
+    int32_t *member = how->space->member;
     otx_cluster_list regions = {0};
 
-    OTX_TRY(grow_regions(run, dual, region, wanted, bend, &regions));
+    OTX_TRY(grow_regions(run, how, region, wanted, &regions));
     otx_arena_release(run->scratch, mark);
     for (int32_t i = 0; i < regions.count; ++i)
     {
@@ -392,7 +457,7 @@ grow_discs(
             c->face_count == region->face_count)
             OTX_TRY(append_faces(run, dual, c, out, capacity));
         else if (!disc)
-            OTX_TRY(grow_discs(run, dual, c, 2, bend, out, capacity, member));
+            OTX_TRY(grow_discs(run, how, c, 2, out, capacity));
         else if (!append(run, out, capacity, *c))
             return otx_fail_memory(run, STAGE);
     }
@@ -401,21 +466,19 @@ grow_discs(
 
 otx_status
 otx_cluster_grow(
-    otx_run *run, const otx_dual *dual, const otx_cluster *region,
-    double target_area, int32_t minimum, double bend, otx_cluster_list *out)
+    otx_run *run, const otx_growing *how, const otx_cluster *region,
+    double target_area, int32_t minimum, otx_cluster_list *out)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    int32_t *member = OTX_ZNEW(run->scratch, int32_t, dual->level->face_count);
     int32_t capacity = 0;
     otx_cluster solid;
 
     *out = (otx_cluster_list){0};
-    OTX_TRY(otx_run_ok(run));
-    OTX_TRY(without_holes(run, dual, region, &solid));
+    OTX_TRY(without_holes(run, how->dual, region, &solid));
     if (solid.face_count > 0)
         OTX_TRY(grow_discs(
-            run, dual, &solid, seeds_for(&solid, target_area, minimum), bend,
-            out, &capacity, member));
+            run, how, &solid, seeds_for(&solid, target_area, minimum), out,
+            &capacity));
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }

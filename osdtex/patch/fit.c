@@ -232,15 +232,6 @@ note_usage(otx_mosaic *m, const otx_node *node, otx_vec2 middle)
         (float)(node->cluster.area / supply->area * OTX_USAGE_CELLS * OTX_USAGE_CELLS);
 }
 
-/* Where a cluster stands in the hierarchy: 0 when it is of several faces of the
- * cage, else one more than the level that its faces are of. */
-static int32_t
-patch_level(const otx_cluster *cluster)
-{
-    return cluster->level == 0 && cluster->face_count > 1 ? 0
-                                                          : cluster->level + 1;
-}
-
 static void
 commit(otx_mosaic *m, int32_t index, otx_match placed)
 {
@@ -266,7 +257,6 @@ commit(otx_mosaic *m, int32_t index, otx_match placed)
     }
     m->cover.done_area += node->cluster.area;
     m->tally.fit_error += placed.error;
-    ++m->tally.patches[patch_level(&node->cluster)];
     note_usage(m, node, otx_placing_middle(chart));
 }
 

@@ -1,9 +1,8 @@
 /* forest.c -- the clusters of a run: where they start, how they split.
  *
- * Grown clusters are unions of the faces of one level, the coarsest whose faces
- * are a good deal smaller than a patch: so patches are made of whole cage
- * faces where the cage is fine, and of subdivision patches where it is coarse.
- */
+ * Regions are unions of the faces of one level, the coarsest whose faces are a
+ * good deal smaller than a patch: so patches are made of whole cage faces where
+ * the cage is fine, and of subdivision patches where it is coarse. */
 #include "patch/given_patches.h"
 #include "patch/mosaic.h"
 
@@ -135,78 +134,70 @@ atom_level(const otx_mosaic *m)
     return level;
 }
 
-/* The dual of a level, made when it is first asked for. */
+/* All faces of a level. */
 static otx_status
-dual_of(otx_mosaic *m, int32_t level, const otx_dual **out)
+whole_level(const otx_mosaic *m, int32_t level, otx_cluster *out)
 {
-    *out = level == m->job.leaves.level_index ? &m->job.leaves
-                                              : &m->forest.duals[level];
-    if ((*out)->level)
-        return OSDTEX_OK;
-    return otx_dual_build(
-        m->job.run, m->job.surface, level, &m->forest.duals[level]);
-}
+    const int32_t count = m->job.surface->levels[level].face_count;
+    int32_t *faces = OTX_NEW(m->job.run->scratch, int32_t, count);
 
-/* Clusters of `diameter` texels inside `region`, of dual's level. */
-static otx_status
-grow(
-    const otx_mosaic *m, double diameter, const otx_dual *dual,
-    const otx_cluster *region, otx_cluster_list *out)
-{
-    const double side = diameter / m->job.texels;
-
-    return otx_cluster_grow(
-        m->job.run, dual, region, side * side, 1, BEND, out);
-}
-
-/* Clusters of what asks for each exemplar. */
-static otx_status
-start_grown(otx_mosaic *m)
-{
-    otx_cluster regions[OTX_EXEMPLARS_MAX];
-    otx_cluster_list list;
-    const otx_dual *dual;
-
-    OTX_TRY(otx_supply_regions(m, atom_level(m), regions));
-    OTX_TRY(dual_of(m, regions[0].level, &dual));
-    for (int32_t k = 0; k < m->job.exemplar_count; ++k)
-    {
-        if (regions[k].face_count == 0)
-            continue;
-        OTX_TRY(grow(
-            m, m->supplies.items[k].settings.patch, dual, &regions[k], &list));
-        OTX_TRY(append_list(m, &list, 0));
-    }
+    OTX_TRY(otx_run_ok(m->job.run));
+    for (int32_t f = 0; f < count; ++f)
+        faces[f] = f;
+    *out = (otx_cluster){level, count, faces, m->job.surface->area, -1};
     return OSDTEX_OK;
 }
 
-/* Clusters of what is not given. */
+/* What is not given, what asks for each exemplar, or the faces of the cage. */
 static otx_status
-start_given(otx_mosaic *m)
+list_parts(otx_mosaic *m, otx_cluster_part *parts, int32_t *count)
 {
-    otx_cluster region;
-    otx_cluster_list list;
+    otx_cluster regions[OTX_EXEMPLARS_MAX];
 
-    OTX_TRY(otx_given_region(&m->job, &m->cover, &region));
-    if (region.face_count == 0)
-        return OSDTEX_OK;
-    OTX_TRY(grow(m, m->job.settings.patch, &m->job.leaves, &region, &list));
-    return append_list(m, &list, 0);
+    *count = 1;
+    if (!m->job.given && m->job.settings.clusters != OTX_PATCH_GROWN)
+    {
+        parts[0].target = 0.0;
+        return whole_level(m, 0, &parts[0].region);
+    }
+    if (m->job.given)
+        OTX_TRY(otx_given_region(&m->job, &m->cover, &regions[0]));
+    else
+    {
+        *count = m->job.exemplar_count;
+        OTX_TRY(otx_supply_regions(m, atom_level(m), regions));
+    }
+    for (int32_t k = 0; k < *count; ++k)
+    {
+        const double side = m->supplies.items[k].settings.patch / m->job.texels;
+
+        parts[k] = (otx_cluster_part){regions[k], side * side};
+    }
+    return OSDTEX_OK;
 }
 
 otx_status
 otx_forest_start(otx_mosaic *m)
 {
-    otx_cluster_list list;
-    const otx_dual *dual;
+    const otx_arena_mark mark = otx_arena_here(m->job.run->scratch);
+    otx_cluster_part parts[OTX_EXEMPLARS_MAX];
+    const otx_dual *dual = &m->job.leaves;
+    otx_cluster_list regions;
+    int32_t count, level;
 
-    if (m->job.given)
-        return start_given(m);
-    if (m->job.settings.clusters == OTX_PATCH_GROWN)
-        return start_grown(m);
-    OTX_TRY(dual_of(m, 0, &dual));
-    OTX_TRY(otx_cluster_faces(m->job.run, dual, &list));
-    return append_list(m, &list, 0);
+    OTX_TRY(list_parts(m, parts, &count));
+    level = parts[0].region.level;
+    if (level != dual->level_index)
+    {
+        dual = &m->forest.dual;
+        OTX_TRY(
+            otx_dual_build(m->job.run, m->job.surface, level, &m->forest.dual));
+    }
+    OTX_TRY(otx_cluster_tree_create(
+        m->job.run, m->job.surface, dual, BEND, parts, count, &m->forest.tree));
+    otx_arena_release(m->job.run->scratch, mark);
+    OTX_TRY(otx_cluster_tree_list(m->job.run, &m->forest.tree, 0, &regions));
+    return append_list(m, &regions, 0);
 }
 
 /* -- charts -------------------------------------------------------------- */
@@ -304,8 +295,10 @@ void
 otx_forest_free(otx_mosaic *m)
 {
     for (int32_t i = 0; i < m->forest.count; ++i)
+    {
         otx_arena_destroy(m->forest.nodes[i].arena);
-    m->forest.count = 0;
+        m->forest.nodes[i].arena = NULL;
+    }
 }
 
 static void
@@ -359,16 +352,16 @@ otx_forest_is_flat(const otx_mosaic *m, const otx_node *node)
            node->chart.worst <= 2.0 * m->job.settings.flatness;
 }
 
-/* Grows about two clusters inside one of several faces. */
-static otx_status
-split_grown(otx_mosaic *m, const otx_node *node, otx_cluster_list *out)
+int32_t
+otx_forest_patches(const otx_mosaic *m, int32_t level)
 {
-    const otx_dual *dual;
+    int32_t count = 0;
 
-    OTX_TRY(dual_of(m, node->cluster.level, &dual));
-    return otx_cluster_grow(
-        m->job.run, dual, &node->cluster, 0.5 * node->cluster.area, 2, BEND,
-        out);
+    for (int32_t i = 0; i < m->forest.count; ++i)
+        count += m->forest.nodes[i].patch >= 0 &&
+                 otx_cluster_tree_level(
+                     &m->forest.tree, &m->forest.nodes[i].cluster) == level;
+    return count;
 }
 
 otx_status
@@ -381,11 +374,8 @@ otx_forest_split(otx_mosaic *m, int32_t index)
     node->retired = true;
     otx_arena_destroy(node->arena);
     node->arena = NULL;
-    if (node->cluster.face_count > 1)
-        OTX_TRY(split_grown(m, node, &list));
-    else
-        OTX_TRY(otx_cluster_children(
-            m->job.run, m->job.surface, &node->cluster, &list));
+    OTX_TRY(otx_cluster_tree_children(
+        m->job.run, &m->forest.tree, &node->cluster, &list));
     ++m->tally.splits;
     return append_list(m, &list, depth);
 }

@@ -1,12 +1,12 @@
 /* forest.h -- clusters on their way to becoming patches.
  *
- * Each begins as a root; one that is not flat, or fits nowhere, is retired and
- * its children have its leaves. A leaf is of one cluster that is not retired.
- */
+ * Roots are the regions of the hierarchy of clusters (cluster/tree.h); one that
+ * is not flat, or fits nowhere, is retired and its children there have its
+ * leaves. A leaf is of one cluster that is not retired. */
 #ifndef OTX_PATCH_FOREST_H
 #define OTX_PATCH_FOREST_H
 
-#include "cluster/cluster.h"
+#include "cluster/tree.h"
 #include "flatten/chart.h"
 #include "match/match.h"
 #include "patch/mosaic_job.h"
@@ -36,9 +36,11 @@ typedef struct otx_forest
     int32_t *leaf_node;  /* [leaf face_count] the node that has it now, -1 on
                           * holes */
     int32_t *patch_node; /* [leaf face_count] by patch; -1 of a given one */
-    otx_dual duals[OTX_LEVEL_MAX + 1]; /* of levels, where made */
-    otx_chart_space *spaces;           /* [threads] */
-    int32_t turn_count;                /* so far, see turn.h */
+    otx_dual dual; /* of the level that regions are grown from; not made where
+                    * it is the leaves' */
+    otx_cluster_tree tree;
+    otx_chart_space *spaces; /* [threads] */
+    int32_t turn_count;      /* so far, see turn.h */
 } otx_forest;
 
 /* Clusters to start with, charts, splitting. */
@@ -55,12 +57,14 @@ double otx_forest_band(const otx_mosaic *m, const otx_node *node);
 double otx_forest_collar(const otx_mosaic *m, const otx_node *node);
 /* Length of a leaf edge, texels. */
 double otx_forest_edge_length(const otx_mosaic *m, int32_t edge);
-/* Frees all charts; nodes and charts are gone afterwards. */
+/* Frees all charts. */
 void otx_forest_free(otx_mosaic *m);
 /* The same when the run's arena dies before that. False when memory is out. */
 bool otx_forest_defer(otx_mosaic *m);
 /* False when the node is a single leaf face. */
 bool otx_forest_can_split(const otx_mosaic *m, const otx_node *node);
+/* Patches that were made of clusters of a level of the hierarchy. */
+int32_t otx_forest_patches(const otx_mosaic *m, int32_t level);
 /* Retires a node and appends its children, unflattened. */
 otx_status otx_forest_split(otx_mosaic *m, int32_t node);
 

@@ -1,6 +1,8 @@
 /* forest_check.c -- what holds of the hierarchy of clusters at any time. */
 #include "patch/forest_check.h"
 
+#include "cluster/tree_check.h"
+
 static const char *
 check_node(const otx_mosaic *m, int32_t index)
 {
@@ -29,8 +31,12 @@ const char *
 otx_forest_check(const otx_mosaic *m)
 {
     const otx_forest *forest = &m->forest;
+    const char *unsound =
+        otx_cluster_tree_check(&forest->tree, m->job.run->scratch);
     int64_t in_clusters = 0, owned = 0;
 
+    if (unsound)
+        return unsound;
     for (int32_t i = 0; i < forest->count; ++i)
     {
         const char *wrong = check_node(m, i);

@@ -8,6 +8,7 @@
 
 /* NULL when the hierarchy is sound, else what is not, for assert():
  *
+ * - that of cluster/tree_check.h;
  * - leaves of a cluster ascend, and none is a hole;
  * - the clusters that are not retired share all their leaves out among them,
  *   and each leaf knows its own;

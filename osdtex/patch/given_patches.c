@@ -33,7 +33,7 @@ otx_given_region(
     int32_t *faces = OTX_NEW(job->run->arena, int32_t, leaf->face_count);
 
     OTX_TRY(otx_run_ok(job->run));
-    *out = (otx_cluster){job->leaves.level_index, 0, faces, 0.0};
+    *out = (otx_cluster){job->leaves.level_index, 0, faces, 0.0, -1};
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (cover->face_patch[f] < 0 && !leaf->face_hole[f])
         {

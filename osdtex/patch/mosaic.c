@@ -61,15 +61,27 @@ otx_mosaic_begin(otx_mosaic *m, const otx_guide *guides)
     return OSDTEX_OK;
 }
 
+/* Patches by level of the hierarchy of clusters. */
+static void
+report_levels(const otx_mosaic *m)
+{
+    const otx_cluster_tree *tree = &m->forest.tree;
+    otx_figures *f = m->job.figures;
+
+    otx_figures_count(f, "clusters.face_level", "", tree->face_level);
+    otx_figures_count(f, "clusters.subdivision_level", "", tree->base);
+    for (int32_t l = 0; l < otx_cluster_tree_levels(tree); ++l)
+        otx_figures_item(
+            f, "patches_by_level", "patches", otx_forest_patches(m, l));
+}
+
 static void
 report(const otx_mosaic *m)
 {
     const otx_patch_tally *t = &m->tally;
     otx_figures *f = m->job.figures;
 
-    otx_figures_count(f, "patches_above_cage", "patches", t->patches[0]);
-    for (int32_t l = 0; l < m->job.surface->level_count; ++l)
-        otx_figures_item(f, "patches_by_level", "patches", t->patches[l + 1]);
+    report_levels(m);
     otx_figures_count(f, "fits", "searches", t->fits);
     otx_figures_count(f, "splits", "clusters", t->splits);
     otx_figures_real(f, "threshold", "random pairs", m->job.settings.tau);

@@ -29,13 +29,11 @@
 /* What is reported at the end. */
 typedef struct otx_patch_tally
 {
-    int32_t fits;                       /* searches made */
-    int32_t splits;                     /* clusters given to their children */
-    int32_t patches[OTX_LEVEL_MAX + 2]; /* fitted, by hierarchy level; [0] is
-                                         * what was grown above the cage */
-    double fit_error;                   /* of accepted fits; their mean, once
-                                         * all are made */
-    double cut_before, cut_after;       /* seam energy; 0 when not cut */
+    int32_t fits;                 /* searches made */
+    int32_t splits;               /* clusters given to their children */
+    double fit_error;             /* of accepted fits; their mean, once
+                                   * all are made */
+    double cut_before, cut_after; /* seam energy; 0 when not cut */
     double relax_before, relax_after;
 } otx_patch_tally;
 

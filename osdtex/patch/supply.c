@@ -181,7 +181,7 @@ take_region(
     OTX_TRY(otx_run_ok(m->job.run));
     *out = (otx_cluster){
         level_index, 0, faces,
-        m->job.demand ? m->supplies.items[k].area : m->job.surface->area};
+        m->job.demand ? m->supplies.items[k].area : m->job.surface->area, -1};
     for (int32_t f = 0; f < level->face_count; ++f)
         if (demand[f] == k)
             faces[out->face_count++] = f;

@@ -339,7 +339,6 @@ tiles(
 static void
 report(otx_figures *figures, const otx_surface *surface, int32_t level)
 {
-    otx_figures_count(figures, "patches_above_cage", "patches", 0);
     for (int32_t l = 0; l < surface->level_count; ++l)
         otx_figures_item(
             figures, "patches_by_level", "patches",

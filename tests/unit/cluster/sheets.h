@@ -95,7 +95,21 @@ sheet_all(otx_run *run, const otx_surface *surface, int32_t level)
 
     for (int32_t f = 0; f < count; ++f)
         faces[f] = f;
-    return (otx_cluster){level, count, faces, surface->area};
+    return (otx_cluster){level, count, faces, surface->area, -1};
+}
+
+/* Clusters grown in `region`, their borders seeking bends. */
+static inline otx_status
+sheet_grow(
+    otx_run *run, const otx_dual *dual, const otx_cluster *region,
+    double target, int32_t minimum, otx_cluster_list *out)
+{
+    otx_cluster_space space;
+    const otx_growing how = {dual, 1.0, &space};
+
+    assert_int_equal(
+        otx_cluster_space_create(run, dual->level, &space), OSDTEX_OK);
+    return otx_cluster_grow(run, &how, region, target, minimum, out);
 }
 
 #endif

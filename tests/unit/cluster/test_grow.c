@@ -14,8 +14,7 @@ grow(otx_run *run, const otx_surface *s, int32_t level, double count)
     otx_cluster_list list;
 
     assert_int_equal(
-        otx_cluster_grow(run, &dual, &all, s->area / count, 1, 1.0, &list),
-        OSDTEX_OK);
+        sheet_grow(run, &dual, &all, s->area / count, 1, &list), OSDTEX_OK);
     return list;
 }
 
@@ -94,11 +93,9 @@ at_least_as_many_as_the_minimum(void **state)
     otx_cluster_list list;
 
     (void)state;
-    assert_int_equal(
-        otx_cluster_grow(run, &dual, &all, 100.0, 2, 1.0, &list), OSDTEX_OK);
+    assert_int_equal(sheet_grow(run, &dual, &all, 100.0, 2, &list), OSDTEX_OK);
     assert_int_equal(list.count, 2);
-    assert_int_equal(
-        otx_cluster_grow(run, &dual, &all, 100.0, 9, 1.0, &list), OSDTEX_OK);
+    assert_int_equal(sheet_grow(run, &dual, &all, 100.0, 9, &list), OSDTEX_OK);
     assert_int_equal(list.count, 3);
     test_run_destroy(run);
 }
@@ -170,8 +167,7 @@ growth_can_be_stopped(void **state)
         int left = 4 * ++stops;
 
         otx_pool_watch(run->pool, count_down, &left, 0.0);
-        status =
-            otx_cluster_grow(run, &dual, &all, s.area / 30.0, 1, 1.0, &list);
+        status = sheet_grow(run, &dual, &all, s.area / 30.0, 1, &list);
         if (status != OSDTEX_OK)
             assert_int_equal(status, OSDTEX_ERROR_CANCELLED);
         otx_arena_release(run->scratch, mark);

@@ -10,7 +10,7 @@ distortion(const char *path, int32_t rounds)
     const otx_surface s = sheet_from_file(run, path, 2);
     chart_bench *b = chart_bench_create(run, &s, 30.0, 20.0);
     const int32_t faces[] = {0, 1};
-    const otx_cluster c = {0, 2, faces, 1.0};
+    const otx_cluster c = {0, 2, faces, 1.0, -1};
     double sum = 0.0;
     otx_chart chart;
 
@@ -49,7 +49,7 @@ poles_are_not_flipped(void **state)
     (void)state;
     for (int32_t f = 0; f < s.levels[0].face_count; f += 5)
     {
-        const otx_cluster c = {0, 1, &f, 1.0};
+        const otx_cluster c = {0, 1, &f, 1.0, -1};
         const otx_chart chart = chart_joint(b, &c);
 
         for (int32_t i = 0; i < chart.core_count; ++i)

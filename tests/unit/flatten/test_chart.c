@@ -54,7 +54,7 @@ charts_stay_discs_where_the_surface_closes(void **state)
         {
             const int32_t face =
                 (int32_t)(otx_random_unit(3, 0, (uint64_t)k) * s.levels[0].face_count);
-            const otx_cluster c = {0, 1, &face, 1.0};
+            const otx_cluster c = {0, 1, &face, 1.0, -1};
             const otx_chart chart = chart_joint(b, &c);
 
             chart_check(b, &chart);
@@ -74,7 +74,7 @@ developable_sheets_flatten_without_stretch(void **state)
         const otx_surface s = sheet_create(run, 14, 9, kind);
         chart_bench *b = chart_bench_create(run, &s, 7.0, 40.0);
         const int32_t faces[] = {61, 62, 63, 64, 75, 76, 77, 78};
-        const otx_cluster c = {0, COUNT(faces), faces, 8.0};
+        const otx_cluster c = {0, COUNT(faces), faces, 8.0, -1};
         const otx_chart chart = chart_joint(b, &c);
 
         chart_check(b, &chart);
@@ -92,7 +92,7 @@ the_collar_is_no_wider_than_asked(void **state)
     const otx_surface s = sheet_create(run, 15, 15, SHEET_FLAT);
     chart_bench *b = chart_bench_create(run, &s, 10.0, 25.0);
     const int32_t face = 7 * 15 + 7;
-    const otx_cluster c = {0, 1, &face, 1.0};
+    const otx_cluster c = {0, 1, &face, 1.0, -1};
     const otx_chart chart = chart_joint(b, &c);
 
     (void)state;
@@ -115,11 +115,9 @@ what_is_not_developable_says_so(void **state)
 
     (void)state;
     assert_int_equal(
-        otx_cluster_grow(run, &dual, &all, s.area / 2, 1, 1.0, &few),
-        OSDTEX_OK);
+        sheet_grow(run, &dual, &all, s.area / 2, 1, &few), OSDTEX_OK);
     assert_int_equal(
-        otx_cluster_grow(run, &dual, &all, s.area / 30, 1, 1.0, &many),
-        OSDTEX_OK);
+        sheet_grow(run, &dual, &all, s.area / 30, 1, &many), OSDTEX_OK);
     assert_true(
         chart_joint(b, &few.clusters[0]).distortion >
         chart_joint(b, &many.clusters[0]).distortion + 0.05);

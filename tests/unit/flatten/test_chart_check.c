@@ -23,7 +23,7 @@ make(void)
     f.bench = chart_bench_create(run, surface, 8.0, 4.0);
 
     const int32_t *face = OTX_ZNEW(run->arena, int32_t, 1);
-    const otx_cluster cluster = {0, 1, face, 1.0};
+    const otx_cluster cluster = {0, 1, face, 1.0, -1};
 
     f.chart = chart_joint(f.bench, &cluster);
     return f;

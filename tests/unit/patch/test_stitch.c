@@ -22,7 +22,8 @@ both_lower_the_energy(void **state)
         assert_true(
             m->cover.face_patch[f] >= 0 &&
             m->cover.face_patch[f] < m->cover.patch_count);
-    assert_int_equal(m->forest.count, 0);
+    for (int32_t i = 0; i < m->forest.count; ++i)
+        assert_null(m->forest.nodes[i].arena);
     test_run_destroy(run);
 }
 

@@ -70,7 +70,7 @@ make_scene(bool wrap, bool recursive, otx_vec2 off)
     for (int32_t f = 0; f < leaf->face_count; ++f)
         s->patch[f] = leaf->face_cage[f] == 3 ? 0 : -1;
     s->face = 4;
-    s->cluster = (otx_cluster){0, 1, &s->face, 1.0};
+    s->cluster = (otx_cluster){0, 1, &s->face, 1.0, -1};
     s->chart = recursive ? chart_recursive(s->bench, 0, 4)
                          : chart_joint(s->bench, &s->cluster);
     s->uv = OTX_NEW(run->arena, otx_vec2, s->chart.vert_count);
