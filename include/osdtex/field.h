@@ -8,6 +8,15 @@ OSDTEX_BEGIN_DECLS
 
 typedef struct osdtex_field osdtex_field;
 
+/* Elements of a surface that values can be of. */
+typedef int32_t osdtex_element;
+enum
+{
+    OSDTEX_ELEMENT_FACE = 0,      /* of the leaf level, osdtex_surface_info */
+    OSDTEX_ELEMENT_CAGE_FACE = 1, /* of the cage: all leaves below it */
+    OSDTEX_ELEMENT_VERTEX = 2     /* of the leaf level */
+};
+
 typedef struct osdtex_field_options
 {
     size_t size;
@@ -22,6 +31,17 @@ typedef struct osdtex_field_options
     /* How far the texture's size may give way so that rows can follow the
      * curvature, in octaves; 0: not at all. */
     double octaves;
+    /* A field of the host's own, that constraints add to. Directions are in
+     * scene axes and of any length, their part along a face counts; where they
+     * are zero the field is free. NULL: none. */
+    const float *directions; /* [direction_count * 3] */
+    osdtex_index direction_count;
+    osdtex_element directions_of; /* what each is of */
+    /* Factor on the texture's size, 1/16 .. 16, at each vertex of the surface;
+     * scales of constraints then say nothing. NULL: none. */
+    const float *scales; /* [scale_count] */
+    osdtex_index scale_count;
+    int32_t reserved;
 } osdtex_field_options;
 
 static inline osdtex_field_options

@@ -80,6 +80,11 @@ typedef struct osdtex_map_options
      * map it several times; `level` then says nothing. NULL: it is refined by
      * the call. */
     const osdtex_surface *surface;
+    /* A field to follow, in the place of `constraints` and `follow`: directions
+     * and sizes are those of the field, also where it was edited. Its surface
+     * is the one that is mapped. Methods follow it where they follow
+     * constraints, which is where the exemplar has a direction. NULL none. */
+    const osdtex_field *field;
 } osdtex_map_options;
 
 static inline osdtex_map_options

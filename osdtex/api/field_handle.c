@@ -1,5 +1,6 @@
 /* field_handle.c -- fields, and edits that stay where they were made. */
 #include "api/call.h"
+#include "api/field_given.h"
 #include "api/handle.h"
 #include "api/map_input.h"
 #include "field/nested.h"
@@ -175,6 +176,8 @@ create(
     if (ours.symmetry != 0)
         h->set.symmetry = ours.symmetry;
     h->request.symmetry = h->set.symmetry > 0 ? h->set.symmetry : 2;
+    OTX_TRY(otx_field_given_read(
+        run, &h->connection, h->request.symmetry, &ours, &h->set.field));
     OTX_TRY(solve(run, ours.octaves, h));
     OTX_TRY(lend(run, h));
     *out = h;
@@ -289,6 +292,8 @@ edit(
     OTX_TRY(begin(run, field->surface, &h));
     OTX_TRY(copy_fields(run, field, h));
     OTX_TRY(otx_map_input_add(run, &field->set, constraint, 1, &h->set));
+    /* It is in what was copied, and gives way where the edit reaches. */
+    h->set.field = (otx_constraint_field){0};
     item = &h->set.items[h->set.count - 1];
     if (!item->has_direction && item->scale == 0.0 && !item->has_material)
         return otx_fail(

@@ -2,6 +2,7 @@
 #include "api/map_input.h"
 
 #include "api/call.h"
+#include "api/field_given.h"
 #include "bridge/charconv.h"
 #include "file/constraint_file.h"
 
@@ -146,6 +147,42 @@ otx_map_input_add(
     return OSDTEX_OK;
 }
 
+/* Whether the host asks for directions or sizes beside its field. */
+static bool
+asks_beside_field(const osdtex_map_options *options)
+{
+    for (int32_t i = 0;
+         options->constraint_items && i < options->constraint_count; ++i)
+    {
+        const osdtex_constraint *item =
+            (const osdtex_constraint
+                 *)((const char *)options->constraint_items +
+                    (size_t)i * options->constraint_items->size);
+
+        if (item->scale != 0.0 ||
+            otx_vec3_length(vector(item->direction)) != 0.0)
+            return true;
+    }
+    return options->constraints || options->follow;
+}
+
+/* What the field asks for, or a file and a word. */
+static otx_status
+read_base(
+    otx_run *run, const osdtex_map_options *options,
+    const otx_constraint_set **out)
+{
+    if (!options->field)
+        return otx_map_input_constraints(
+            run, options->constraints, options->follow, out);
+    if (asks_beside_field(options))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "field", OTX_NOWHERE,
+            "a field is given, and directions or sizes besides; make the field "
+            "with them, or edit it");
+    return otx_field_given_constraints(run, options->field, out);
+}
+
 otx_status
 otx_map_input_options(
     otx_run *run, const osdtex_map_options *options,
@@ -153,8 +190,7 @@ otx_map_input_options(
 {
     otx_constraint_set *set;
 
-    OTX_TRY(otx_map_input_constraints(
-        run, options->constraints, options->follow, out));
+    OTX_TRY(read_base(run, options, out));
     if (options->constraint_count == 0)
         return OSDTEX_OK;
     if (options->constraint_count < 0 || !options->constraint_items)

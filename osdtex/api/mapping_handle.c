@@ -62,10 +62,15 @@ choose_surface(
     osdtex_surface *surface;
     otx_status status;
 
-    *out = options->surface;
-    if (options->surface && (!cage || options->surface->cage == cage))
-        return otx_call_hold(&call->run, options->surface->arena);
-    if (options->surface || !cage)
+    *out = options->surface || !options->field ? options->surface
+                                               : options->field->surface;
+    if (options->field && options->field->surface != *out)
+        return otx_fail(
+            &call->run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
+            "the field is of another surface");
+    if (*out && (!cage || (*out)->cage == cage))
+        return otx_call_hold(&call->run, (*out)->arena);
+    if (*out || !cage)
         return otx_fail(
             &call->run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
             "no cage is given, or the surface is of another one");
@@ -103,6 +108,8 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
     handle->exemplar = exemplar;
     handle->seed = ours.seed;
     OTX_TRY(otx_call_hold(run, exemplar->arena));
+    if (ours.field)
+        OTX_TRY(otx_call_hold(run, ours.field->arena));
     OTX_TRY(otx_resolve_request(
         run, surface->cage, &exemplar->info, &ours, &handle->request));
     OTX_TRY(otx_map_input_options(run, &ours, &handle->request.constraints));

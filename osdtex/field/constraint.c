@@ -8,6 +8,9 @@
 /* Largest factor on the texture's size, either way. */
 static const double SCALE_MAX = 16.0;
 
+/* A unit direction whose part along a face is shorter says nothing there. */
+static const double UPRIGHT = 0.05;
+
 static otx_status
 refuse(
     otx_run *run, const otx_constraint_set *set, int32_t index,
@@ -223,7 +226,7 @@ pin_item(pinning *p, int32_t index)
             continue;
         any = true;
         if (!(otx_vec2_length(otx_connection_project(
-                  p->c, f, otx_vec3_unit(item->direction))) > 0.05))
+                  p->c, f, otx_vec3_unit(item->direction))) > UPRIGHT))
             continue;
         compare_pins(p, index, f);
         p->owner[f] = index;
@@ -237,11 +240,59 @@ pin_item(pinning *p, int32_t index)
     return OSDTEX_OK;
 }
 
+/* Sums up, for each face of the level, the field of the leaves below it. */
+static void
+gather_field(const pinning *p, otx_vec2 *sums)
+{
+    const otx_surface *surface = p->c->surface;
+    const int32_t last = surface->level_count - 1;
+
+    for (int32_t f = 0; f < surface->levels[last].face_count; ++f)
+    {
+        const otx_vec3 d = p->set->field.directions[f];
+        int32_t face = f;
+
+        for (int32_t l = last; l > p->c->level_index; --l)
+            face = surface->levels[l].face_parent[face];
+        if (!(otx_vec3_length(d) > 0.0) || p->c->level->face_hole[face])
+            continue;
+        sums[face] = otx_vec2_add(
+            sums[face],
+            otx_direction_power(
+                otx_connection_project(p->c, face, otx_vec3_unit(d)),
+                p->symmetry));
+    }
+}
+
+/* Pins the faces of which the field says something. */
+static otx_status
+pin_field(pinning *p)
+{
+    const int32_t faces = p->c->level->face_count;
+    const otx_arena_mark mark = otx_arena_here(p->run->scratch);
+    otx_vec2 *sums;
+
+    if (!p->set->field.directions)
+        return OSDTEX_OK;
+    sums = OTX_ZNEW(p->run->scratch, otx_vec2, faces);
+    OTX_TRY(otx_run_ok(p->run));
+    gather_field(p, sums);
+    for (int32_t f = 0; f < faces; ++f)
+        if ((!p->effect || p->effect[f]) && otx_vec2_length(sums[f]) > UPRIGHT)
+            p->pins[p->count++] = (otx_direction_pin){
+                f,
+                otx_connection_lift(
+                    p->c, f,
+                    otx_vec2_polar(atan2(sums[f].y, sums[f].x) / p->symmetry))};
+    otx_arena_release(p->run->scratch, mark);
+    return OSDTEX_OK;
+}
+
 static otx_status
 pin_all(pinning *p)
 {
     const int32_t faces = p->c->level->face_count;
-    int64_t count = 0;
+    int64_t count = p->set->field.directions ? faces : 0;
 
     for (int32_t i = 0; i < p->set->count; ++i)
     {
@@ -263,6 +314,7 @@ pin_all(pinning *p)
     OTX_TRY(otx_run_ok(p->run));
     for (int32_t f = 0; f < faces; ++f)
         p->owner[f] = -1;
+    OTX_TRY(pin_field(p));
     for (int32_t i = 0; i < p->set->count; ++i)
         if (p->set->items[i].has_direction)
             OTX_TRY(pin_item(p, i));
@@ -395,6 +447,17 @@ lock_values(
     return OSDTEX_OK;
 }
 
+/* Those of the field, whose vertices are numbered as all levels' are. */
+static void
+take_scales(
+    const otx_constraint_set *set, const otx_connection *c,
+    const uint8_t *effect, double *values)
+{
+    for (int32_t v = 0; v < c->level->vert_count; ++v)
+        if (!effect || effect[v])
+            values[v] = set->field.log_scale[v];
+}
+
 otx_status
 otx_constraint_interpolate(
     otx_run *run, const otx_constraint_set *set, const otx_connection *c,
@@ -406,6 +469,11 @@ otx_constraint_interpolate(
     otx_scale_lock *locks;
     int32_t count;
 
+    if (kind == OTX_CONSTRAINT_SCALE && set->field.log_scale)
+    {
+        take_scales(set, c, effect, values);
+        return OSDTEX_OK;
+    }
     OTX_TRY(lock_values(run, set, c, kind, &locks, &count));
     if (count > 0)
         OTX_TRY(otx_scale_smooth(

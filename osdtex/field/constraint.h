@@ -35,6 +35,15 @@ typedef enum otx_follow
     OTX_FOLLOW_CURVATURE
 } otx_follow;
 
+/* A field that is there already, on the leaves. */
+typedef struct otx_constraint_field
+{
+    const otx_vec3 *directions; /* [leaf face_count] of any length, zero: free;
+                                 * NULL: nothing is said of any */
+    const double *log_scale;    /* [leaf vert_count] -ln of factors; NULL
+                                 * likewise. Scales of constraints are in it */
+} otx_constraint_field;
+
 typedef struct otx_constraint_set
 {
     const char *path; /* for messages; NULL none */
@@ -46,6 +55,7 @@ typedef struct otx_constraint_set
     bool is_table;        /* has a line a face, if all are there */
     int32_t count;
     const otx_constraint *items;
+    otx_constraint_field field; /* that the constraints add to */
 } otx_constraint_set;
 
 /* Whether a set that is a table has one line for each face of a cage.

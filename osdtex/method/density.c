@@ -15,6 +15,8 @@ enum
 static bool
 asks_for_scale(const otx_constraint_set *set)
 {
+    if (set && set->field.log_scale)
+        return true;
     for (int32_t i = 0; set && i < set->count; ++i)
         if (set->items[i].scale > 0.0)
             return true;

@@ -35,6 +35,8 @@ turned_edge(
 static bool
 has_direction(const otx_constraint_set *set, int32_t face)
 {
+    if (set && set->field.directions)
+        return true;
     for (int32_t i = 0; set && i < set->count; ++i)
         if (set->items[i].has_direction && set->items[i].face == face)
             return true;
