@@ -1,4 +1,17 @@
-/* bake.h -- the cage with textures on its UVs. */
+/* bake.h -- the cage with textures on its UVs, as files.
+ *
+ *     osdtex_bake_options options = osdtex_bake_options_default();
+ *
+ *     options.resolution = 2048;
+ *     options.extras = OSDTEX_BAKE_UV;
+ *     osdtex_bake(context, mapping, "out/shirt.obj", &options);
+ *
+ * The same into memory is textures.h.
+ *
+ * Textures are made in blocks as they are written, on all threads, so that none
+ * is in memory as a whole: 4096 x 4096 texels with all mip levels take some 6
+ * seconds of processor time (docs/notes/bake.md). Files are the same bytes for
+ * any number of threads. */
 #ifndef OSDTEX_BAKE_H
 #define OSDTEX_BAKE_H
 
@@ -49,7 +62,7 @@ typedef struct osdtex_bake_options
     osdtex_bake_uvs uvs;
     int32_t resolution;          /* texels of a tile's side, up to 32768 */
     int32_t margin;              /* texels continued beyond the rims of charts;
-                                  * 0 chooses */
+                                  * of an atlas 4, 8, 16, 32 or 64; 0 chooses */
     double texels_per_unit;      /* of an atlas; 0: what fills one tile */
     double seam_blend;           /* texels over which patches are blended */
     uint32_t extras;             /* OSDTEX_BAKE_PATCH | … */

@@ -1,4 +1,23 @@
-/* cage.h -- the artist's control mesh, validated. */
+/* cage.h -- the artist's control mesh, validated.
+ *
+ * From a file, or from arrays:
+ *
+ *     osdtex_cage_arrays arrays = osdtex_cage_arrays_none();
+ *
+ *     arrays.vert_count = 8;
+ *     arrays.face_count = 6;
+ *     arrays.points = points;         // 8 * 3 floats, scene units
+ *     arrays.face_sizes = sizes;      // 6 numbers of corners
+ *     arrays.face_verts = verts;      // the corners, counter-clockwise
+ *     osdtex_cage_create(context, &arrays, NULL, &cage);
+ *     printf("%g wide\n", osdtex_cage_describe(cage)->diagonal);
+ *     osdtex_cage_destroy(cage);
+ *
+ * Vertices and faces keep their order and numbers in all that follows. What is
+ * read is checked once, here: a cage that was made can be refined and mapped.
+ * Every fault is a finding with file and line, or with the face or vertex of
+ * the arrays. A handle is immutable, and may be used by several contexts at the
+ * same time. */
 #ifndef OSDTEX_CAGE_H
 #define OSDTEX_CAGE_H
 
@@ -73,7 +92,8 @@ osdtex_cage_options_default(void)
 OSDTEX_API void
 osdtex_cage_options_init(osdtex_cage_options *out, size_t bytes);
 
-/* A cage as arrays. They are copied. */
+/* A cage as arrays, which are read while the call lasts. Counts of 0 need no
+ * array. */
 typedef struct osdtex_cage_arrays
 {
     size_t size;
@@ -134,14 +154,19 @@ typedef struct osdtex_cage_info
     double default_scale;    /* what a scale of 0 means: diagonal / 5 */
 } osdtex_cage_info;
 
-/* Reads an OBJ. FORMAT, TOPOLOGY, LIMIT, NUMERIC, IO, MEMORY. */
+/* Reads an OBJ, its tags for creases, corners and holes, its materials and
+ * groups, on one thread. FORMAT (the line),
+ * TOPOLOGY (an edge of three faces, a face that repeats a vertex, …), LIMIT (a
+ * count beyond 2^31), NUMERIC (a number that is not finite), IO, MEMORY. */
 OSDTEX_API osdtex_status osdtex_cage_read(
     osdtex_context *context, const char *path,
     const osdtex_cage_options *options, osdtex_cage **out);
-/* ARGUMENT, and as osdtex_cage_read but for IO. */
+/* The same from arrays. ARGUMENT (an array that is missing, an index that is
+ * out of range), and as osdtex_cage_read but for IO. */
 OSDTEX_API osdtex_status osdtex_cage_create(
     osdtex_context *context, const osdtex_cage_arrays *arrays,
     const osdtex_cage_options *options, osdtex_cage **out);
+/* Lent as long as the handle. NULL for NULL. */
 OSDTEX_API const osdtex_cage_info *
 osdtex_cage_describe(const osdtex_cage *cage);
 OSDTEX_API void osdtex_cage_destroy(osdtex_cage *cage);

@@ -1,4 +1,20 @@
-/* colour.h -- what the colour configuration of a context offers. */
+/* colour.h -- what the colour configuration of a context offers.
+ *
+ * For menus of colour spaces, as osdtex_exemplar_options.from takes them:
+ *
+ *     static void
+ *     add_space(void *menu, osdtex_colour_kind kind, const char *name,
+ *               const char *value)
+ *     {
+ *         if (kind == OSDTEX_COLOUR_SPACE)
+ *             menu_add(menu, name);
+ *     }
+ *
+ *     osdtex_colour_list(context, add_space, menu);
+ *
+ * The configuration is that of the context's options, else of $OCIO, else the
+ * one built in. It is opened at the first call that needs it, and stays open.
+ */
 #ifndef OSDTEX_COLOUR_H
 #define OSDTEX_COLOUR_H
 

@@ -1,4 +1,14 @@
-/* common.h -- what all headers share: statuses, elements of a mesh, hashes. */
+/* common.h -- what all headers share: statuses, elements of a mesh, hashes.
+ *
+ *     osdtex_status status = osdtex_cage_read(context, path, NULL, &cage);
+ *
+ *     if (status != OSDTEX_OK)
+ *         fprintf(stderr, "%s: %s\n", osdtex_status_name(status),
+ *                 osdtex_context_error(context)->message);
+ *
+ * A status says whose fault it is, which is what a program decides by; what to
+ * do about it is in the sentence of the context, for people. Nothing here needs
+ * a context, allocates, or fails; all of it may be called from any thread. */
 #ifndef OSDTEX_COMMON_H
 #define OSDTEX_COMMON_H
 
@@ -49,7 +59,7 @@ enum
     OSDTEX_ERROR_INTERNAL = -11  /* ours: a check of osdtex's own failed */
 };
 
-/* "OK", "ARGUMENT", …; "UNKNOWN" for a code that is none of ours. */
+/* "OK", "ARGUMENT", …; "UNKNOWN" for a code that is none of ours. Static. */
 OSDTEX_API const char *osdtex_status_name(osdtex_status status);
 
 enum
@@ -57,7 +67,10 @@ enum
     OSDTEX_HASH_BYTES = 33 /* 128 bits in hexadecimal, and the NUL */
 };
 
-/* Hash of `bytes` bytes, as reports give it for files (XXH3-128). */
+/* Hash of `bytes` bytes, as reports give it for files (XXH3-128).
+ *
+ *   data  [bytes]; NULL where bytes is 0
+ *   text  gets hexadecimal digits and a NUL */
 OSDTEX_API void
 osdtex_hash(const void *data, size_t bytes, char text[OSDTEX_HASH_BYTES]);
 

@@ -1,4 +1,26 @@
-/* context.h -- memory, threads, colour, and where findings go. */
+/* context.h -- memory, threads, colour, and where findings go.
+ *
+ *     osdtex_context_options options = osdtex_context_options_default();
+ *     osdtex_context *context;
+ *
+ *     options.threads = 4;
+ *     options.progress = show_progress;   // false cancels
+ *     if (osdtex_context_create(&options, &context) != OSDTEX_OK)
+ *         return out_of_memory();
+ *     ...
+ *     osdtex_context_destroy(context);
+ *
+ * Every call that works is given a context. It has a pool of threads, which a
+ * call uses for as long as it lasts, and the findings of all calls so far. One
+ * thread at a time may use a context; several contexts in one process share
+ * nothing and may work side by side. Results do not depend on the number of
+ * threads, nor on which context made a handle or uses it.
+ *
+ * Callbacks are called by the thread that made the call, but for alloc and
+ * release. They may not use the context, nor leave by longjmp or an exception:
+ * a host that throws keeps what it caught, returns false, and throws again when
+ * the call has returned. A cancelled call returns CANCELLED, soon, and has
+ * changed nothing; only OpenSubdiv's own refinement goes on to its end. */
 #ifndef OSDTEX_CONTEXT_H
 #define OSDTEX_CONTEXT_H
 
@@ -71,9 +93,16 @@ osdtex_context_options_default(void)
 OSDTEX_API void
 osdtex_context_options_init(osdtex_context_options *out, size_t bytes);
 
-/* ARGUMENT (threads below 0 or above 256), MEMORY. */
+/* Starts the threads; reads nothing yet.
+ *
+ *   options  NULL: the defaults. Copied, `colorconfig` too; what a `user`
+ * points to is the host's
+ *
+ * ARGUMENT (threads below 0 or above 256), MEMORY; there is no context then to
+ * ask for a sentence. */
 OSDTEX_API osdtex_status osdtex_context_create(
     const osdtex_context_options *options, osdtex_context **out);
+/* Ends the threads. Handles that were made with it live on. NULL: nothing. */
 OSDTEX_API void osdtex_context_destroy(osdtex_context *context);
 
 /* Why the last call failed: the first error that it met, in its own words.

@@ -1,4 +1,21 @@
-/* exemplar.h -- the picture of a material, its colours resolved. */
+/* exemplar.h -- the picture of a material, its colours resolved.
+ *
+ *     osdtex_exemplar_options options = osdtex_exemplar_options_default();
+ *     osdtex_exemplar *exemplar;
+ *
+ *     options.from = "sRGB - Texture";        // NULL: by the stated rules
+ *     osdtex_exemplar_read(context, "bricks.png", &options, &exemplar);
+ *
+ * or from pixels in memory, which are copied:
+ *
+ *     osdtex_image_create(context, 512, 512, 3, pixels, &image);
+ *     osdtex_exemplar_create(context, image, NULL, &exemplar);
+ *     osdtex_image_destroy(image);
+ *
+ * Reading converts the picture to what is written and to what is compared, and
+ * looks whether it tiles; each of these pictures is kept, as floats. Every
+ * decision about colour is a finding of stage "colour". A handle is immutable;
+ * contexts may share it. */
 #ifndef OSDTEX_EXEMPLAR_H
 #define OSDTEX_EXEMPLAR_H
 

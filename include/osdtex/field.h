@@ -1,4 +1,28 @@
-/* field.h -- which way a texture is to run, and how large it is to be. */
+/* field.h -- which way a texture is to run, and how large it is to be.
+ *
+ * A mapping makes a field by itself where the exemplar has a direction. A host
+ * that shows it, lets it be edited, or has one of its own, makes it first:
+ *
+ *     osdtex_field_options options = osdtex_field_options_default();
+ *     osdtex_constraint comb = osdtex_constraint_none();
+ *     osdtex_field *field, *edited;
+ *
+ *     options.follow = "curvature";
+ *     osdtex_field_create(context, surface, &options, &field);
+ *     comb.face = 17;
+ *     comb.direction[1] = 1.0;
+ *     osdtex_field_edit(context, field, &comb, 0.5, &edited);
+ *     map_options.field = edited;
+ *
+ * From arrays, such as a groom's:
+ *
+ *     options.directions = directions;        // 3 floats each
+ *     options.direction_count = osdtex_surface_describe(surface)->vert_count;
+ *     options.directions_of = OSDTEX_ELEMENT_VERTEX;
+ *
+ * A field keeps its surface and is immutable: an edit makes another one. A
+ * million leaf faces take about a second of processor time
+ * (docs/benchmarks.md). */
 #ifndef OSDTEX_FIELD_H
 #define OSDTEX_FIELD_H
 

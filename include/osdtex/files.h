@@ -1,4 +1,20 @@
-/* files.h -- files that appear together, and what files depend on. */
+/* files.h -- files that appear together, and what files depend on.
+ *
+ * Each call that writes leaves all of its files or none. Several calls become
+ * one such set:
+ *
+ *     osdtex_outputs_begin(context);
+ *     status = osdtex_bake(context, mapping, "shirt.obj", NULL);
+ *     if (status == OSDTEX_OK)
+ *         status = osdtex_report_write(context, mapping, "shirt.json");
+ *     if (status == OSDTEX_OK)
+ *         status = osdtex_outputs_commit(context);
+ *     else
+ *         osdtex_outputs_drop(context);
+ *
+ * Until the commit they lie beside their places under temporary names; a
+ * process that dies leaves those alone. Destroying the context drops the set.
+ */
 #ifndef OSDTEX_FILES_H
 #define OSDTEX_FILES_H
 

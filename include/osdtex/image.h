@@ -1,4 +1,16 @@
-/* image.h -- float pixels. */
+/* image.h -- float pixels.
+ *
+ *     const float grey[4] = {0.0f, 0.5f, 0.5f, 1.0f};  // bottom row first
+ *     osdtex_image *image;
+ *
+ *     osdtex_image_create(context, 2, 2, 1, grey, &image);
+ *     osdtex_image_write(context, image, "grey.png");
+ *     osdtex_image_destroy(image);
+ *
+ * What is rendered and baked into memory comes as an image, exemplars and masks
+ * may go in as one. Pixels are lent as long as the handle, rows without gaps,
+ * so that a host can lay an array of its own over them. A handle is immutable.
+ */
 #ifndef OSDTEX_IMAGE_H
 #define OSDTEX_IMAGE_H
 
@@ -18,8 +30,8 @@ typedef struct osdtex_image_info
                           * colour multiplied by A */
 } osdtex_image_info;
 
-/* Copies `pixels`, laid out as in osdtex_image_info. ARGUMENT, LIMIT, MEMORY.
- */
+/* Copies `pixels`, laid out as in osdtex_image_info. ARGUMENT (no pixels, no
+ * size, not 1 to 4 channels), LIMIT (a side beyond 32768), MEMORY. */
 OSDTEX_API osdtex_status osdtex_image_create(
     osdtex_context *context, int32_t width, int32_t height, int32_t channels,
     const float *pixels, osdtex_image **out);

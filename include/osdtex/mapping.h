@@ -1,4 +1,23 @@
-/* mapping.h -- UVs into the exemplar for every leaf face. */
+/* mapping.h -- UVs into the exemplar for every leaf face.
+ *
+ *     osdtex_map_options options = osdtex_map_options_default();
+ *     const osdtex_mapping_info *info;
+ *     osdtex_mapping *mapping;
+ *
+ *     options.scale = 2.5;          // the picture is 2.5 scene units wide
+ *     osdtex_map(context, cage, exemplar, &options, &mapping);
+ *     info = osdtex_mapping_describe(mapping);
+ *     for (osdtex_index c = 0; c < info->corner_count; ++c)
+ *         use_uv(c, info->uvs[2 * c], info->uvs[2 * c + 1]);
+ *
+ * Corners are those of
+ * osdtex_surface_describe(osdtex_mapping_surface(mapping)), whose face_first
+ * and face_verts say of which face and vertex they are. From here a mapping is
+ * written as OBJ (below), baked (bake.h, textures.h), measured (report.h),
+ * rendered (render.h), or saved and read again.
+ *
+ * A mapping keeps its surface and its exemplars. It is immutable; contexts may
+ * share it. */
 #ifndef OSDTEX_MAPPING_H
 #define OSDTEX_MAPPING_H
 

@@ -1,4 +1,20 @@
-/* method.h -- how to texture, and the settings of each method. */
+/* method.h -- how to texture, and the settings of each method.
+ *
+ * For menus and checks before a job. All that can be set is in these tables,
+ * which are those of the program's --set and its manual:
+ *
+ *     for (int32_t m = 0; m < osdtex_method_count(); ++m)
+ *     {
+ *         osdtex_method_info method;
+ *         osdtex_option_info option;
+ *
+ *         osdtex_method_get(m, &method);
+ *         for (int32_t o = 0; o < method.option_count; ++o)
+ *             if (osdtex_option_get(m, o, &option) == OSDTEX_OK)
+ *                 menu_add(menu, method.name, option.name, option.fallback);
+ *     }
+ *
+ * Tables are static: what they lend lives for ever, and any thread may ask. */
 #ifndef OSDTEX_METHOD_H
 #define OSDTEX_METHOD_H
 
@@ -37,12 +53,14 @@ typedef struct osdtex_option_info
 } osdtex_option_info;
 
 OSDTEX_API int32_t osdtex_method_count(void);
-/* ARGUMENT when there is no such method, or it has no such option. */
+/* Number `method` of the table, from 0; the first is the default. ARGUMENT when
+ * there is no such method, or it has no such option. */
 OSDTEX_API osdtex_status
 osdtex_method_get(int32_t method, osdtex_method_info *out);
 OSDTEX_API osdtex_status
 osdtex_option_get(int32_t method, int32_t option, osdtex_option_info *out);
 
+/* A setting as text, as osdtex_map_options takes them: "mode", "paper". */
 typedef struct osdtex_setting
 {
     const char *key;

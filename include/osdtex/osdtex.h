@@ -13,13 +13,14 @@
  *     osdtex_mapping_write   OBJ + MTL + EXR that load in the DCC (mapping.h)
  *     osdtex_bake            the cage with textures on its UVs (bake.h)
  *     osdtex_textures_create the same textures in memory (textures.h)
+ *     osdtex_report_create   how good it is, in figures (report.h)
  *     osdtex_render          a picture of the result (render.h)
  *
  * and beside it memory, threads and findings (context.h), the refined surface
- * for hosts that look at it (surface.h), directions that a
- * texture follows (field.h), the methods and their settings (method.h), tiled
- * textures (tiles.h), the files of a material (material.h), pixels (image.h)
- * and what files depend on (files.h).
+ * for hosts that look at it (surface.h), directions that a texture follows
+ * (field.h), the methods and their settings (method.h), tiled textures
+ * (tiles.h), the files of a material (material.h), pixels (image.h) and what
+ * files depend on (files.h).
  *
  * Every call that can fail returns an osdtex_status; on failure *out is NULL,
  * the inputs are untouched, and the context holds diagnostics addressed to the

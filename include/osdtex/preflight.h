@@ -1,4 +1,15 @@
-/* preflight.h -- what can be known of a job before it runs. */
+/* preflight.h -- what can be known of a job before it runs.
+ *
+ *     osdtex_job job = osdtex_job_none();
+ *     osdtex_forecast forecast;
+ *
+ *     job.map = &map_options;
+ *     job.bake = &bake_options;
+ *     if (osdtex_preflight(context, cage, exemplar, &job, &forecast) ==
+ *             OSDTEX_OK && forecast.bytes < free_bytes)
+ *         submit(&job);
+ *
+ * It changes nothing, and a job need not be looked over to be run. */
 #ifndef OSDTEX_PREFLIGHT_H
 #define OSDTEX_PREFLIGHT_H
 

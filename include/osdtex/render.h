@@ -1,4 +1,18 @@
-/* render.h -- pictures of the result. */
+/* render.h -- pictures of the result.
+ *
+ *     osdtex_render_options options = osdtex_render_options_default();
+ *     osdtex_model *model;
+ *     osdtex_image *image;
+ *
+ *     options.show = "seams";
+ *     osdtex_model_create(context, mapping, &model);
+ *     osdtex_render(context, model, &options, &image);
+ *     use(osdtex_image_describe(image)->pixels);   // RGBA, bottom row first
+ *
+ * A model is made once, which builds what rays are traced through (0.6 seconds
+ * of processor time for a million quads), and rendered as often as wanted. It
+ * keeps what it was made of. Models are immutable; the same model, options and
+ * build give the same pixels for any number of threads. */
 #ifndef OSDTEX_RENDER_H
 #define OSDTEX_RENDER_H
 
@@ -66,8 +80,10 @@ osdtex_render_options_default(void)
 OSDTEX_API void
 osdtex_render_options_init(osdtex_render_options *out, size_t bytes);
 
-/* Renders into an RGBA image, scene-linear. ARGUMENT, NUMERIC, MEMORY,
- * CANCELLED. */
+/* Renders into an RGBA image, scene-linear, colour multiplied by alpha. On all
+ * threads: 1280 x 720 pixels of 16 samples take some 10 seconds of processor
+ * time (docs/notes/render.md). ARGUMENT (a name that is none, with near ones; a
+ * size beyond 32768), NUMERIC, MEMORY, CANCELLED. */
 OSDTEX_API osdtex_status osdtex_render(
     osdtex_context *context, const osdtex_model *model,
     const osdtex_render_options *options, osdtex_image **out);

@@ -1,4 +1,17 @@
-/* surface.h -- the subdivision hierarchy and the limit of its leaves. */
+/* surface.h -- the subdivision hierarchy and the limit of its leaves.
+ *
+ * osdtex_map() refines by itself. A host that wants to see the surface, or maps
+ * it several times, refines it once:
+ *
+ *     osdtex_surface_options options = osdtex_surface_options_default();
+ *     osdtex_surface *surface;
+ *
+ *     options.level = 4;
+ *     osdtex_surface_refine(context, cage, &options, &surface);
+ *     map_options.surface = surface;
+ *     osdtex_map(context, cage, exemplar, &map_options, &mapping);
+ *
+ * A surface keeps its cage. It is immutable; contexts may share it. */
 #ifndef OSDTEX_SURFACE_H
 #define OSDTEX_SURFACE_H
 
@@ -63,7 +76,9 @@ typedef struct osdtex_surface_info
                               * cage far away from the scene's origin */
 } osdtex_surface_info;
 
-/* ARGUMENT, LIMIT (predicted memory over the context's, too many elements),
+/* Refines by OpenSubdiv: 786 432 leaf faces in 0.3 seconds
+ * (docs/benchmarks.md), of some 430 bytes each (docs/notes/preflight.md).
+ * ARGUMENT, LIMIT (predicted memory over the context's, too many elements),
  * MEMORY, CANCELLED. */
 OSDTEX_API osdtex_status osdtex_surface_refine(
     osdtex_context *context, const osdtex_cage *cage,

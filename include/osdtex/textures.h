@@ -15,14 +15,15 @@
  *     osdtex_textures_image(context, textures, &color, &image);
  *     use(osdtex_image_describe(image)->pixels);
  *
- *   osdtex_textures_image  an image of the library's
- *   osdtex_textures_read   into an array of the caller's
- *   osdtex_textures_bake   block by block to a function of the caller's, so
- *                          that no texture is ever in memory as a whole
+ * osdtex_textures_image() makes an image of the library's,
+ * osdtex_textures_read() fills an array of the caller's, and
+ * osdtex_textures_bake() hands blocks to a function of the caller's, so that no
+ * texture is ever in memory as a whole. All three give the same values, which
+ * are those of the files before these round them: osdtex_bake() writes the
+ * colour as half floats, or as 8-bit sRGB for the web.
  *
- * All three give the same values, which are those of the files before these
- * round them: osdtex_bake() writes the colour as half floats, or as 8-bit sRGB
- * for the web.
+ * A handle keeps its mapping. It is immutable; contexts may share it, and the
+ * values are the same for any number of threads.
  *
  * Rows begin at the bottom: texel (x, y) of a level of `side` texels has its
  * middle at UV ((x + 1/2) / side, (y + 1/2) / side) of its tile. */
@@ -69,8 +70,7 @@ typedef struct osdtex_texture_info
 
 /* Settles what is baked where; the mapping is kept. Of the options those that
  * are about files (comments, mesh, previews, normals, units) say nothing here;
- * with `udim` the handle has that tile only. Costs a fraction of a second, for
- * millions of leaf faces some.
+ * with `udim` the handle has that tile only. No texel is evaluated yet.
  *
  * ARGUMENT (no such tile), TOPOLOGY (own UVs are asked for that cannot be baked
  * onto), LIMIT, MEMORY, CANCELLED. */
@@ -93,9 +93,8 @@ typedef struct osdtex_texture_part
     int32_t level;
 } osdtex_texture_part;
 
-/* Bakes one part into a new image. Runs on all threads of the context; level 0
- * of 4096 texels a side takes seconds. ARGUMENT (no such part), MEMORY,
- * CANCELLED. */
+/* Bakes one part into a new image. Runs on all threads of the context; for its
+ * cost see bake.h. ARGUMENT (no such part), MEMORY, CANCELLED. */
 OSDTEX_API osdtex_status osdtex_textures_image(
     osdtex_context *context, const osdtex_textures *textures,
     const osdtex_texture_part *part, osdtex_image **out);
@@ -158,9 +157,10 @@ osdtex_bake_sink_none(void)
 /* The same for hosts that cannot call inline functions: see osdtex.h. */
 OSDTEX_API void osdtex_bake_sink_init(osdtex_bake_sink *out, size_t bytes);
 
-/* Bakes into a sink. Besides the mapping itself about 10 MB are needed and some
- * bytes a leaf face, whatever the size of the textures. ARGUMENT (no `put`, no
- * such texture, tile or level), MEMORY, CANCELLED (by progress or the sink). */
+/* Bakes into a sink. Besides the mapping, 8 MB of blocks and the lists of what
+ * is in them are needed, whatever the size of the textures. ARGUMENT (no `put`,
+ * no such texture, tile or level), MEMORY, CANCELLED (by progress or the sink).
+ */
 OSDTEX_API osdtex_status osdtex_textures_bake(
     osdtex_context *context, const osdtex_textures *textures,
     const osdtex_bake_sink *sink);

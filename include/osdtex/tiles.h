@@ -1,5 +1,13 @@
 /* tiles.h -- tiled textures: what the method "tile" maps.
  *
+ *     osdtex_tiles_options options = osdtex_tiles_options_default();
+ *
+ *     options.boundaries = 2;      // 256 tiles
+ *     osdtex_tiles_write(context, exemplar, NULL, &options, "tiles.exr", NULL);
+ *     osdtex_exemplar_read(context, "tiles.exr", NULL, &tiles);
+ *     map_options.method = "tile";
+ *     osdtex_map(context, cage, tiles, &map_options, &mapping);
+ *
  * Cuts and searches compare the picture in the coordinates that its exemplar
  * was read with, osdtex_exemplar_options.embedding. What they weigh was
  * measured in OSDTEX_EMBEDDING_LAB, which `osdtex tiles` asks for unless told
@@ -86,7 +94,8 @@ typedef struct osdtex_tiles_info
 } osdtex_tiles_info;
 
 /* Makes a tiled texture from `exemplar` and writes it as an EXR that
- * osdtex_exemplar_read takes back.
+ * osdtex_exemplar_read takes back. On all threads, and the same for any number
+ * of them.
  *
  *   surface  only the tiles that mapping it with this seed, scale and
  *            settings needs; NULL: all

@@ -1,4 +1,12 @@
-/* version.h -- of these headers, and of the library that is running. */
+/* version.h -- of these headers, and of the library that is running.
+ *
+ *     #if OSDTEX_VERSION_MAJOR == 0 && OSDTEX_VERSION_MINOR < 2
+ *     #error osdtex 0.2 is needed
+ *     #endif
+ *     printf("osdtex %s (%s)\n", osdtex_version(), osdtex_build());
+ *
+ * docs/conventions.md, "Versions", says what may change between two of them.
+ * Texts are static. */
 #ifndef OSDTEX_VERSION_H
 #define OSDTEX_VERSION_H
 

@@ -455,6 +455,60 @@ threads_make_no_difference(void **state)
     close_scene(&kept);
 }
 
+/* A host's thread, with a context of its own. */
+typedef struct baker
+{
+    pthread_t thread;
+    const osdtex_textures *textures;
+    float *pixels; /* of level 0 */
+    osdtex_status status;
+} baker;
+
+static void *
+bake_beside(void *user)
+{
+    const osdtex_texture_part part = {0, 0, 0};
+    baker *b = user;
+    osdtex_context *context;
+
+    b->status = osdtex_context_create(NULL, &context);
+    if (b->status == OSDTEX_OK)
+        b->status = osdtex_textures_read(
+            context, b->textures, &part, b->pixels, SIDE * SIDE * 3);
+    osdtex_context_destroy(context);
+    return NULL;
+}
+
+static void
+contexts_share_a_handle(void **state)
+{
+    const osdtex_bake_options options = small_bake();
+    baker bakers[3];
+    scene s;
+
+    open_scene(state, &s, &options, 1);
+    for (int i = 0; i < 3; ++i)
+    {
+        bakers[i] = (baker){
+            .textures = s.textures,
+            .pixels = malloc(SIDE * SIDE * 3 * sizeof(float))};
+        assert_int_equal(
+            pthread_create(&bakers[i].thread, NULL, bake_beside, &bakers[i]),
+            0);
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+        pthread_join(bakers[i].thread, NULL);
+        assert_int_equal(bakers[i].status, OSDTEX_OK);
+        assert_memory_equal(
+            bakers[i].pixels, bakers[0].pixels,
+            SIDE * SIDE * 3 * sizeof(float));
+    }
+    for (int i = 0; i < 3; ++i)
+        free(bakers[i].pixels);
+    close_scene(&s);
+}
+
 static void
 a_handle_keeps_its_mapping(void **state)
 {
@@ -601,6 +655,7 @@ main(void)
         cmocka_unit_test(a_sink_gets_what_it_asks_for),
         cmocka_unit_test(a_sink_may_have_enough),
         cmocka_unit_test(threads_make_no_difference),
+        cmocka_unit_test(contexts_share_a_handle),
         cmocka_unit_test(a_handle_keeps_its_mapping),
         cmocka_unit_test(what_is_not_there_is_refused),
         cmocka_unit_test(failing_allocations_leak_nothing),

@@ -17,9 +17,11 @@ test -s "$prefix/include/osdtex/osdtex.h"
 cmake -S "$here" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_BUILD_TYPE=Release >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 cmake --build "$work/build"
-# What the README shows is this program.
+# What the README and the library's guide show are these programs.
 sed -n '/^    \/\* Textures a cage/,/^    }$/p' "$here/../../README.md" |
     sed 's/^    //' | diff -u "$here/consumer.c" -
+awk '/^\/\* Textures a cube/ {on = 1} /^```$/ {on = 0} on' \
+    "$here/../../docs/library.md" | diff -u "$here/memory.c" -
 
 run() {
     models=$here/../../models
@@ -30,6 +32,16 @@ run() {
     ! "$1" "$models/cages/none.obj" none.png "$work/out.obj" 2>"$work/said"
     test -s "$work/said" && ! test -e "$work/out.obj"
 }
+# A host without files: the texels add up to what the picture does, and figures
+# are told; both libraries say the same but for times.
+told() {
+    "$1" | tee "$work/told" | grep -q '^256 x 256 texels, mean 0\.3[0-9]*$'
+    grep -q '^seams.visible_share = ' "$work/told"
+    grep -v '^seconds\|^memory' "$work/told" >"$work/$2"
+}
+told "$work/build/memory_shared" shared
+told "$work/build/memory_static" static
+diff "$work/shared" "$work/static"
 run "$work/build/consumer_shared"
 run "$work/build/consumer_static"
 
