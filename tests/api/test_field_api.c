@@ -782,7 +782,7 @@ a_mapping_follows_its_field(void **state)
     assert_true(figure_of(&s, mapping, "field.angle.p95") < 6.0);
     assert_true(figure_of(&s, mapping, "field.symmetry") == 2.0);
     /* Twice as large on the surface: half the texels along each axis. */
-    assert_true(fabs(figure_of(&s, mapping, "field.scale.p50") - 1.0) < 0.1);
+    assert_true(fabs(figure_of(&s, mapping, "field.scale.p50") - 2.0) < 0.1);
     assert_true(fabs(uv_area(mapping) * 4.0 / surface->area - 1.0) < 0.2);
     osdtex_mapping_destroy(mapping);
     free(axes);
