@@ -101,18 +101,20 @@ tell(osdtex_context *context, const osdtex_mapping *mapping)
 int
 main(void)
 {
+    osdtex_map_options options = osdtex_map_options_default();
     osdtex_context *context = NULL;
     osdtex_cage *cage = NULL;
     osdtex_exemplar *exemplar = NULL;
     osdtex_mapping *mapping = NULL;
     osdtex_status status = osdtex_context_create(NULL, &context);
 
+    options.level = 4; /* 1536 leaf faces */
     if (status == OSDTEX_OK)
         status = make_cage(context, &cage);
     if (status == OSDTEX_OK)
         status = make_exemplar(context, &exemplar);
     if (status == OSDTEX_OK)
-        status = osdtex_map(context, cage, exemplar, NULL, &mapping);
+        status = osdtex_map(context, cage, exemplar, &options, &mapping);
     if (status == OSDTEX_OK)
         status = bake(context, mapping);
     if (status == OSDTEX_OK)
