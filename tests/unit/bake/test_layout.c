@@ -18,57 +18,6 @@ static const char *const CAGES[] = {
     "models/cages/creature.obj", "models/cages/ngons_and_triangles.obj",
     "models/cages/loop_open.obj", "models/cages/creased.obj"};
 
-/* Cells do not overlap, lie in their tile, and keep their margins. */
-static void
-blocks_are_apart(void **state)
-{
-    (void)state;
-    for (size_t i = 0; i < sizeof CAGES / sizeof *CAGES; ++i)
-    {
-        otx_run *run = test_run_create();
-        const otx_cage cage = cage_of(run, CAGES[i]);
-        const otx_surface surface = mesh_refine(run, &cage, 1);
-        const int32_t side = 1024;
-        const otx_atlas_options options = {side, 0, 0.0};
-        otx_atlas atlas;
-        float *box = OTX_NEW(run->arena, float, 4 * cage.face_count);
-
-        assert_int_equal(
-            otx_atlas_pack(run, &surface, &options, &atlas), OSDTEX_OK);
-        assert_int_equal(atlas.tile_count, 1);
-        for (int32_t f = 0; f < cage.face_count; ++f)
-        {
-            float *b = box + 4 * f;
-
-            b[0] = b[1] = INFINITY;
-            b[2] = b[3] = -INFINITY;
-            for (int32_t c = cage.face_first[f]; c < cage.face_first[f + 1];
-                 ++c)
-                for (int k = 0; k < 2; ++k)
-                {
-                    b[k] = fminf(b[k], atlas.uvs[2 * c + k] * (float)side);
-                    b[2 + k] =
-                        fmaxf(b[2 + k], atlas.uvs[2 * c + k] * (float)side);
-                }
-            for (int k = 0; k < 2; ++k)
-                assert_true(
-                    b[k] >= (float)atlas.margin - 0.01f &&
-                    b[2 + k] <= (float)(side - atlas.margin) + 0.01f);
-        }
-        for (int32_t f = 0; f < cage.face_count; ++f)
-            for (int32_t g = 0; g < f; ++g)
-            {
-                const float *a = box + 4 * f, *b = box + 4 * g;
-                const float gap = fmaxf(
-                    fmaxf(a[0] - b[2], b[0] - a[2]),
-                    fmaxf(a[1] - b[3], b[1] - a[3]));
-
-                assert_true(gap >= 2.0f * (float)atlas.margin - 0.01f);
-            }
-        test_run_destroy(run);
-    }
-}
-
 static void
 a_density_opens_tiles(void **state)
 {
@@ -87,26 +36,6 @@ a_density_opens_tiles(void **state)
     assert_int_equal(layout.tiles[0], 1001);
     for (int32_t t = 1; t < layout.tile_count; ++t)
         assert_int_equal(layout.tiles[t], 1001 + t);
-    test_run_destroy(run);
-}
-
-/* 128 texels hold 64 blocks of the least size; no texels to a unit are found.
- */
-static void
-more_faces_than_a_tile_holds_are_told(void **state)
-{
-    static const otx_atlas_options options = {128, 0, 0.0};
-    otx_run *run = test_run_create();
-    const otx_cage cage = cage_of(run, "models/cages/creature.obj");
-    const otx_surface surface = mesh_refine(run, &cage, 1);
-    otx_atlas atlas;
-
-    (void)state;
-    assert_int_equal(
-        otx_atlas_pack(run, &surface, &options, &atlas), OSDTEX_OK);
-    assert_int_equal(atlas.tile_count, (278 + 63) / 64);
-    assert_non_null(
-        strstr(test_last_message(run), "278 faces fill 5 tiles of 128 x 128"));
     test_run_destroy(run);
 }
 
@@ -227,9 +156,7 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(blocks_are_apart),
         cmocka_unit_test(a_density_opens_tiles),
-        cmocka_unit_test(more_faces_than_a_tile_holds_are_told),
         cmocka_unit_test(the_rule_is_opensubdivs),
         cmocka_unit_test(own_uvs_are_on_their_tiles),
         cmocka_unit_test(charts_are_what_hangs_together),
