@@ -1,7 +1,7 @@
 /* mip_level.c -- what each block of a level has to look at. */
 #include "bake/mip_level.h"
 
-#include "bake/facet.h"
+#include "surface/facet.h"
 #include "image/pyramid.h"
 
 #include <string.h>

@@ -2,7 +2,7 @@
  */
 #include "bake/seam_fit.h"
 
-#include "bake/facet.h"
+#include "surface/facet.h"
 #include "mapping/source.h"
 
 /* The table of the C++ library is not linked. */

@@ -6,7 +6,7 @@
 #ifndef OTX_BAKE_WALK_H
 #define OTX_BAKE_WALK_H
 
-#include "bake/facet.h"
+#include "surface/facet.h"
 #include "math/vec.h"
 #include "surface/surface.h"
 

@@ -3,8 +3,8 @@
  * A quad is the triangles (0, 1, 3) and (2, 3, 1), as Embree splits it; other
  * faces are fans about their first corner. Within a facet everything is
  * affine: texture coordinates, exemplar UVs, positions. */
-#ifndef OTX_BAKE_FACET_H
-#define OTX_BAKE_FACET_H
+#ifndef OTX_SURFACE_FACET_H
+#define OTX_SURFACE_FACET_H
 
 #include "surface/level.h"
 

@@ -1,7 +1,7 @@
 /* test_facet.c -- the triangles of a face fit together, whatever its size. */
 #include "unit/surface/meshes.h"
 
-#include "bake/facet.h"
+#include "surface/facet.h"
 
 /* A level with one polygon; corner c is vertex c. */
 static otx_level
