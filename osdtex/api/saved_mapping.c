@@ -10,6 +10,7 @@
 
 #include <assert.h>
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -37,6 +38,41 @@ split_lookups(
         (*values)[3 * i + 2] = l->items[i].weight;
         (*fragments)[i] = l->items[i].fragment;
     }
+    return OSDTEX_OK;
+}
+
+enum
+{
+    /* Of a fragment's outline: frame, feather, radii; all 0: opaque. */
+    OUTLINE_FLOATS = 5 + OTX_RADIAL_ANGLES
+};
+
+/* Outlines that cut fragments out, where there are any. */
+static otx_status
+list_outlines(otx_run *run, const otx_lookups *l, otx_tensors *out)
+{
+    float *list = OTX_ZNEW(
+        run->scratch, float, (int64_t)OUTLINE_FLOATS * l->fragment_count);
+    bool any = false;
+
+    if (!list)
+        return otx_fail_memory(run, STAGE);
+    for (int32_t i = 0; i < l->fragment_count; ++i)
+    {
+        const otx_fragment *f = &l->fragments[i];
+        float *row = list + (size_t)OUTLINE_FLOATS * (size_t)i;
+
+        if (!f->outline)
+            continue;
+        any = true;
+        memcpy(row, f->frame, sizeof f->frame);
+        row[4] = f->outline->feather;
+        memcpy(row + 5, f->outline->radius, sizeof f->outline->radius);
+    }
+    if (any)
+        otx_tensors_add(
+            out, "fragment_outlines", OTX_TENSOR_F32, l->fragment_count,
+            OUTLINE_FLOATS, list);
     return OSDTEX_OK;
 }
 
@@ -128,6 +164,7 @@ gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
         otx_tensors_add(
             out, "lookup_fragment", OTX_TENSOR_I32, count, 0, fragments);
         OTX_TRY(list_fragments(run, l, out));
+        OTX_TRY(list_outlines(run, l, out));
     }
     gather_cuts(mapping, out);
     if (m->lattice)
@@ -363,6 +400,37 @@ need(
 }
 
 static otx_status
+join_outlines(const loader *l, otx_fragment *fragments, int64_t count)
+{
+    otx_run *run = &l->call->run;
+    const float *list =
+        need(l, "fragment_outlines", OTX_TENSOR_F32, count, OUTLINE_FLOATS);
+    otx_radial *outlines;
+
+    if (!list)
+        return OSDTEX_OK;
+    outlines = OTX_NEW(run->arena, otx_radial, count);
+    if (!outlines)
+        return otx_fail_memory(run, STAGE);
+    for (int64_t i = 0; i < count; ++i)
+    {
+        const float *row = list + OUTLINE_FLOATS * i;
+
+        for (int32_t k = 0; k < OUTLINE_FLOATS; ++k)
+            if (!isfinite(row[k]))
+                return damaged(l, "an outline is not finite");
+        if (!(row[2] > 0.0f && row[3] > 0.0f))
+            continue;
+        outlines[i].feather = row[4];
+        memcpy(outlines[i].radius, row + 5, sizeof outlines[i].radius);
+        otx_radial_bound(&outlines[i]);
+        memcpy(fragments[i].frame, row, sizeof fragments[i].frame);
+        fragments[i].outline = &outlines[i];
+    }
+    return OSDTEX_OK;
+}
+
+static otx_status
 join_lookups(const loader *l, const otx_level *leaf, otx_mapping *out)
 {
     otx_run *run = &l->call->run;
@@ -404,6 +472,7 @@ join_lookups(const loader *l, const otx_level *leaf, otx_mapping *out)
         if (row[0] < 0 || row[0] >= l->about.exemplar_count)
             return damaged(l, "a fragment has no exemplar");
     }
+    OTX_TRY(join_outlines(l, fragments, list->rows));
     *lookups = (otx_lookups){
         first, items, (otx_layering)l->about.layering, (int32_t)list->rows,
         fragments};

@@ -8,6 +8,7 @@
 #define OTX_MAPPING_LOOKUPS_H
 
 #include "image/texture.h"
+#include "mapping/radial.h"
 
 #include <stdint.h>
 
@@ -24,8 +25,13 @@ typedef struct otx_fragment
 {
     int32_t exemplar;
     int32_t patch;
-    const otx_texture *mask; /* one channel on the exemplar's UVs, which
-                              * multiplies the weight; NULL: opaque */
+    /* Masks multiply the weight: a picture of one channel on the unit square,
+     * beyond which its border goes on, or an outline. NULL: opaque. */
+    const otx_texture *mask;
+    const otx_radial *outline;
+    /* u, v of the mask's origin on the exemplar, and the length of its unit in
+     * u and in v; no length: all of the exemplar. */
+    float frame[4];
 } otx_fragment;
 
 /* One lookup at one corner. */

@@ -112,6 +112,26 @@ beyond(double uv, int32_t size, bool wraps)
     return wraps ? 0.0 : size * fmax(-uv, uv - 1.0);
 }
 
+/* How many lookups a face mixes; 0 where its own UVs are looked up. */
+static int64_t
+lookup_count(const checker *c, int32_t face)
+{
+    const otx_lookups *lookups = c->mapping->lookups;
+    const int64_t items =
+        lookups ? lookups->first[face + 1] - lookups->first[face] : 0;
+
+    return items / otx_level_face_size(c->leaf, face);
+}
+
+/* What lies over something else may be cut out by a mask well inside of its
+ * picture, and its faces may reach further. */
+static bool
+may_leave(const checker *c, int32_t face)
+{
+    return lookup_count(c, face) > 0 &&
+           c->mapping->lookups->layering == OTX_LAYERING_OVER;
+}
+
 static otx_status
 check_uv(const checker *c, int32_t face, const float uv[2])
 {
@@ -119,6 +139,8 @@ check_uv(const checker *c, int32_t face, const float uv[2])
 
     if (!isfinite(uv[0]) || !isfinite(uv[1]))
         return fail(c, face, "a UV is not finite");
+    if (may_leave(c, face))
+        return OSDTEX_OK;
     if (beyond((double)uv[0], e->match.width, e->wrap_x) > BEYOND_MAX ||
         beyond((double)uv[1], e->match.height, e->wrap_y) > BEYOND_MAX)
         return fail(
@@ -134,17 +156,6 @@ check_uvs(const checker *c, int32_t face)
     for (int32_t i = c->leaf->face_first[face]; i < end; ++i)
         OTX_TRY(check_uv(c, face, c->mapping->uvs + 2 * (size_t)i));
     return OSDTEX_OK;
-}
-
-/* How many lookups a face mixes; 0 where its own UVs are looked up. */
-static int64_t
-lookup_count(const checker *c, int32_t face)
-{
-    const otx_lookups *lookups = c->mapping->lookups;
-    const int64_t items =
-        lookups ? lookups->first[face + 1] - lookups->first[face] : 0;
-
-    return items / otx_level_face_size(c->leaf, face);
 }
 
 static otx_status

@@ -20,7 +20,7 @@
  * - coverage: every face that is no hole has a patch, no hole has one;
  * - finite: every UV, also of lookups, whose weights sum to 1 at each corner;
  * - inside: no UV lies more than half a texel beyond an exemplar that does not
- *   tile along that axis;
+ *   tile along that axis, but those of lookups over one another;
  * - winding: no more than a quarter of the area shows the exemplar reversed.
  *   Less than that is a defect of the texture, not of the program, as with
  *   coordinates that have dislocations: it is a warning.

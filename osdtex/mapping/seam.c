@@ -129,6 +129,18 @@ term_on(
  * they are floats that were refined. */
 static const double WEIGHT_TOLERANCE = 1e-3;
 
+static bool
+is_cut(const otx_show_term *term)
+{
+    return term->fragment && (term->fragment->mask || term->fragment->outline);
+}
+
+static bool
+cut_alike(const otx_show_term *a, const otx_show_term *b)
+{
+    return a->fragment == b->fragment || (!is_cut(a) && !is_cut(b));
+}
+
 /* Whether every term of one side that shows along an edge is met by one of the
  * other side. */
 static bool
@@ -149,7 +161,7 @@ is_met(const search *s, int32_t edge, int side)
         {
             const otx_show_term there = term_on(s, edge, 1 - side, j, b, w);
 
-            met = here.exemplar == there.exemplar && here.mask == there.mask &&
+            met = here.exemplar == there.exemplar && cut_alike(&here, &there) &&
                   fabs(v[0] - w[0]) < WEIGHT_TOLERANCE &&
                   fabs(v[1] - w[1]) < WEIGHT_TOLERANCE &&
                   otx_seam_continuous(&s->exemplars[here.exemplar], a, b);

@@ -3,6 +3,9 @@
 
 #include "image/view.h"
 
+/* Less light than this that comes through is none. */
+static const double THROUGH_LEAST = 1e-5;
+
 /* Beyond the sides of a triangle weights do not become negative. */
 static double
 weight_at(const otx_lookup *items, const int32_t local[3], const double at[3])
@@ -52,8 +55,8 @@ otx_show_term_at(
         term.weight = weight_at(term.items, local, place->at);
         if (term.items->fragment >= 0)
         {
-            term.exemplar = l->fragments[term.items->fragment].exemplar;
-            term.mask = l->fragments[term.items->fragment].mask;
+            term.fragment = &l->fragments[term.items->fragment];
+            term.exemplar = term.fragment->exemplar;
         }
     }
     term.uv = otx_show_mix(show, place, &term, place->at);
@@ -82,6 +85,66 @@ otx_show_finish(
 
     for (int32_t c = 0; c < channels; ++c)
         out[c] = whole > 0.0 ? (float)(sum->value[c] / whole) : 0.0f;
+}
+
+/* From UVs of the exemplar to the plane of a fragment's mask: their scale. */
+static otx_vec2
+mask_scale(const otx_fragment *fragment)
+{
+    const double u = (double)fragment->frame[2];
+    const double v = (double)fragment->frame[3];
+
+    return u > 0.0 && v > 0.0 ? (otx_vec2){1.0 / u, 1.0 / v}
+                              : (otx_vec2){1.0, 1.0};
+}
+
+static otx_vec2
+times(otx_vec2 a, otx_vec2 b)
+{
+    return (otx_vec2){a.x * b.x, a.y * b.y};
+}
+
+/* What a mask leaves at a place of its plane, of which the footprint has the
+ * sides dx and dy. */
+static double
+mask_at(const otx_fragment *fragment, otx_vec2 at, otx_vec2 dx, otx_vec2 dy)
+{
+    float value[OTX_IMAGE_MAX_CHANNELS];
+    otx_texture_probes probes;
+
+    if (fragment->outline)
+        return otx_radial_alpha(
+            fragment->outline, at,
+            fmax(otx_vec2_length(dx), otx_vec2_length(dy)));
+    probes = otx_texture_measure(fragment->mask, dx, dy);
+    otx_texture_probe(fragment->mask, &probes, at, value);
+    return (double)value[0];
+}
+
+/* What the mask of a term leaves of it, filtered over its footprint. */
+static double
+masked(
+    const otx_show_view *show, const otx_show_place *place,
+    const otx_show_term *term, double share)
+{
+    const otx_fragment *fragment = term->fragment;
+    otx_vec2 dx = {0.0, 0.0}, dy = {0.0, 0.0};
+
+    if (!fragment || (!fragment->mask && !fragment->outline))
+        return 1.0;
+
+    const otx_vec2 scale = mask_scale(fragment);
+    const otx_vec2 origin = {
+        (double)fragment->frame[0], (double)fragment->frame[1]};
+
+    if (place->dx)
+    {
+        dx = otx_vec2_scale(share, otx_show_mix(show, place, term, place->dx));
+        dy = otx_vec2_scale(share, otx_show_mix(show, place, term, place->dy));
+    }
+    return mask_at(
+        fragment, times(scale, otx_vec2_sub(term->uv, origin)),
+        times(scale, dx), times(scale, dy));
 }
 
 /* What a picture shows around a term's place, filtered over its footprint. */
@@ -124,6 +187,59 @@ carry_over(
         term->exemplar, values);
 }
 
+/* What a term shows, and a map of it in the frame of the place. Channels that a
+ * picture does not have are opaque. */
+static void
+probe_term(
+    const otx_show_view *show, const otx_texture *textures,
+    const otx_show_place *place, const otx_show_term *term, double share,
+    int32_t channels, float *color)
+{
+    const otx_texture *texture = &textures[term->exemplar];
+
+    probe(show, texture, place, term, share, color);
+    for (int32_t c = texture->pyramid.levels[0].channels; c < channels; ++c)
+        color[c] = 1.0f;
+    if (show->carry)
+        carry_over(show, place, term, color);
+}
+
+/* Maps are not multiplied by an alpha. */
+static double
+alpha_of(const otx_show_view *show, const float *color, int32_t channels)
+{
+    return channels == 4 && !show->carry ? (double)color[3] : 1.0;
+}
+
+/* From the top down, as far as light comes. */
+static void
+show_over(
+    const otx_show_view *show, const otx_texture *textures,
+    const otx_show_place *place, int32_t exemplar, double share,
+    int32_t channels, float *color)
+{
+    double sum[OTX_IMAGE_MAX_CHANNELS] = {0.0};
+    double through = 1.0;
+
+    for (int32_t i = otx_show_term_count(show, place->face) - 1;
+         i >= 0 && through > THROUGH_LEAST; --i)
+    {
+        const otx_show_term term = otx_show_term_at(show, place, exemplar, i);
+        const double weight =
+            term.weight > 0.0 ? term.weight * masked(show, place, &term, share)
+                              : 0.0;
+
+        if (!(weight > 0.0))
+            continue;
+        probe_term(show, textures, place, &term, share, channels, color);
+        for (int32_t c = 0; c < channels; ++c)
+            sum[c] += through * weight * (double)color[c];
+        through *= 1.0 - weight * alpha_of(show, color, channels);
+    }
+    for (int32_t c = 0; c < channels; ++c)
+        color[c] = (float)sum[c];
+}
+
 void
 otx_show_color(
     const otx_show_view *show, const otx_texture *textures,
@@ -132,31 +248,28 @@ otx_show_color(
 {
     const int32_t count = otx_show_term_count(show, place->face);
     const bool layered = otx_show_is_layered(show, place->face);
-    const otx_layering layering = otx_show_layering(show);
     otx_show_sum sum = {{0.0}, 0.0};
 
+    if (layered && otx_show_layering(show) == OTX_LAYERING_OVER)
+    {
+        show_over(show, textures, place, exemplar, share, channels, color);
+        return;
+    }
     for (int32_t i = 0; i < count; ++i)
     {
         const otx_show_term term = otx_show_term_at(show, place, exemplar, i);
-        const otx_texture *texture = &textures[term.exemplar];
-        float mask[OTX_IMAGE_MAX_CHANNELS] = {1.0f};
 
         if (!(term.weight > 0.0))
             continue;
-        probe(show, texture, place, &term, share, color);
-        for (int32_t c = texture->pyramid.levels[0].channels; c < channels; ++c)
-            color[c] = 1.0f;
-        if (show->carry)
-            carry_over(show, place, &term, color);
+        probe_term(show, textures, place, &term, share, channels, color);
         if (!layered)
             return;
-        if (term.mask)
-            probe(show, term.mask, place, &term, share, mask);
         otx_show_add(
-            layering, color, channels, term.weight * mask[0],
-            channels == 4 && !show->carry ? color[3] : 1.0, &sum);
+            OTX_LAYERING_MEAN, color, channels,
+            term.weight * masked(show, place, &term, share),
+            alpha_of(show, color, channels), &sum);
     }
-    otx_show_finish(layering, &sum, channels, color);
+    otx_show_finish(OTX_LAYERING_MEAN, &sum, channels, color);
 }
 
 void
@@ -172,7 +285,6 @@ otx_show_lab(
     {
         const otx_show_term term = otx_show_term_at(show, place, exemplar, i);
         const otx_exemplar *from = &exemplars[term.exemplar];
-        float mask[OTX_IMAGE_MAX_CHANNELS] = {1.0f};
         const otx_vec2 texel = {
             term.uv.x * from->lab.width, term.uv.y * from->lab.height};
 
@@ -182,10 +294,9 @@ otx_show_lab(
             otx_view_of(&from->lab, from->wrap_x, from->wrap_y), texel, lab);
         if (!term.items)
             return;
-        if (term.mask)
-            otx_texture_probe(
-                term.mask, &(otx_texture_probes){.count = 1}, term.uv, mask);
-        otx_show_add(layering, lab, 3, term.weight * mask[0], 1.0, &sum);
+        otx_show_add(
+            layering, lab, 3, term.weight * masked(show, place, &term, 0.0),
+            1.0, &sum);
     }
     otx_show_finish(layering, &sum, 3, lab);
 }

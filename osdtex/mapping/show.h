@@ -29,8 +29,8 @@ typedef struct otx_show_term
     otx_vec2 uv;   /* in the exemplar */
     double weight; /* without its mask */
     int32_t exemplar;
-    const otx_texture *mask; /* NULL: opaque */
-    const otx_lookup *items; /* its corners; NULL: the face's own UVs */
+    const otx_fragment *fragment; /* NULL: the face's own exemplar, opaque */
+    const otx_lookup *items;      /* its corners; NULL: the face's own UVs */
 } otx_show_term;
 
 /* A mapping as it is asked, which it borrows. */

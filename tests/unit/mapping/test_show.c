@@ -137,6 +137,27 @@ a_mask_cuts_the_upper_out(void **state)
     test_run_destroy(s->run);
 }
 
+/* The place is at (0.25, 0.25): on the rim of a circle about there, and far
+ * from one about the other corner. */
+static void
+an_outline_cuts_the_upper_out(void **state)
+{
+    stage *s = set(OTX_LAYERING_OVER, 1.0f, 1.0f);
+    otx_radial circle = {.feather = 2.0f};
+
+    (void)state;
+    for (int32_t i = 0; i < OTX_RADIAL_ANGLES; ++i)
+        circle.radius[i] = 1.0f;
+    otx_radial_bound(&circle);
+    s->fragments[1].outline = &circle;
+    s->fragments[1].frame[0] = s->fragments[1].frame[1] = 0.25f;
+    s->fragments[1].frame[2] = s->fragments[1].frame[3] = 0.01f;
+    expect(s, (float[4]){0.75f, 0.25f, 0.0f, 1.0f});
+    s->fragments[1].frame[0] = 0.75f;
+    expect(s, (float[4]){1.0f, 0.0f, 0.0f, 1.0f});
+    test_run_destroy(s->run);
+}
+
 static void
 nothing_covers_where_all_weights_are_0(void **state)
 {
@@ -155,6 +176,7 @@ main(void)
         cmocka_unit_test(a_mean_goes_by_weights),
         cmocka_unit_test(the_upper_covers_by_its_alpha),
         cmocka_unit_test(a_mask_cuts_the_upper_out),
+        cmocka_unit_test(an_outline_cuts_the_upper_out),
         cmocka_unit_test(nothing_covers_where_all_weights_are_0),
     };
 
