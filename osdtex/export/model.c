@@ -1,6 +1,7 @@
 /* model.c -- from a mapping to what the writers of file/ take. */
 #include "export/model.h"
 
+#include "export/baked_texture.h"
 #include "export/cage_model.h"
 #include "export/companion_files.h"
 #include "export/corner_normals.h"
@@ -416,11 +417,19 @@ write_obj(
     return otx_obj_write(run, obj, temporary, &how);
 }
 
+/* What the UVs look up: the exemplars, or what was baked of them. */
+typedef struct texture_source
+{
+    const otx_mapping *mapping;
+    const otx_exemplar *exemplars;
+    const otx_layout *layout; /* NULL: the exemplars */
+} texture_source;
+
 static otx_status
 write_mtl(
     otx_run *run, otx_atomic_file_set *set, const otx_names *names,
     const otx_obj *obj, const material_list *materials,
-    const otx_exemplar *exemplars)
+    const texture_source *from)
 {
     otx_mtl_material *list =
         OTX_NEW(run->scratch, otx_mtl_material, materials->count);
@@ -436,40 +445,103 @@ write_mtl(
             .name = obj->materials.text[i],
             .diffuse = {1.0f, 1.0f, 1.0f},
             .map_kd = names->texture_names[k],
-            .maps = otx_companion_files_names(
-                run, names->texture_names[k], &exemplars[k].companions),
         };
+        if (!from->layout)
+            list[i].maps = otx_companion_files_names(
+                run, names->texture_names[k], &from->exemplars[k].companions);
     }
     OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_atomic_file_add(run, set, names->mtl, &temporary));
     return otx_mtl_write(run, &mtl, temporary, names->mtl);
 }
 
+static otx_status
+write_textures(
+    otx_run *run, otx_atomic_file_set *set, const otx_names *names,
+    const texture_source *from)
+{
+    const otx_exemplar *e = from->exemplars;
+
+    if (from->layout)
+        return otx_baked_texture_write(
+            run, set, names->textures[0], from->mapping, e, from->layout);
+    for (int32_t k = 0; k < names->texture_count; ++k)
+        OTX_TRY(otx_texture_file_write(
+            run, set, names->textures[k], &e[k], &e[k].linear, &e[k].tiles));
+    for (int32_t k = 0; k < names->texture_count; ++k)
+        OTX_TRY(otx_companion_files_write(
+            run, set, names->textures[k], &e[k],
+            otx_source_unit(from->mapping, e, k).x));
+    return OSDTEX_OK;
+}
+
 /* All into temporaries, then all into place: the OBJ last, so that whoever
  * waits for it finds the others. */
 static otx_status
 write_files(
-    otx_run *run, const otx_mapping *mapping, const otx_names *names,
-    const otx_obj *obj, const material_list *materials,
-    const otx_exemplar *exemplars, const otx_model_options *options)
+    otx_run *run, const otx_names *names, const otx_obj *obj,
+    const material_list *materials, const texture_source *from,
+    const otx_model_options *options)
 {
     otx_atomic_file_set *set = options->set;
 
     if (!set)
         OTX_TRY(otx_atomic_file_begin(run, run->scratch, &set));
-    for (int32_t k = 0; !options->without_image && k < names->texture_count;
-         ++k)
-        OTX_TRY(otx_texture_file_write(
-            run, set, names->textures[k], &exemplars[k], &exemplars[k].linear,
-            &exemplars[k].tiles));
-    for (int32_t k = 0; !options->without_image && k < names->texture_count;
-         ++k)
-        OTX_TRY(otx_companion_files_write(
-            run, set, names->textures[k], &exemplars[k],
-            otx_source_unit(mapping, exemplars, k).x));
-    OTX_TRY(write_mtl(run, set, names, obj, materials, exemplars));
+    if (!options->without_image)
+        OTX_TRY(write_textures(run, set, names, from));
+    OTX_TRY(write_mtl(run, set, names, obj, materials, from));
     OTX_TRY(write_obj(run, set, names, obj, options));
     return options->set ? OSDTEX_OK : otx_atomic_file_commit(run, set, true);
+}
+
+static otx_status
+write_model(
+    otx_run *run, const otx_mapping *mapping, const texture_source *from,
+    const otx_names *names, const otx_model_options *options, int32_t *uv_count)
+{
+    material_list materials = {0};
+    otx_obj obj;
+
+    OTX_TRY(
+        describe_obj(run, mapping, names, options->normals, &obj, &materials));
+    *uv_count = obj.uv_count;
+    return write_files(run, names, &obj, &materials, from, options);
+}
+
+/* The mapping as UVs onto an atlas of its own. */
+static otx_status
+flatten_pastes(
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
+    otx_layout *layout, otx_mapping *out)
+{
+    const int32_t corners = otx_surface_leaf(mapping->surface)->corner_count;
+    float *uvs = OTX_NEW(run->scratch, float, 2 * (size_t)corners);
+
+    if (!uvs)
+        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_baked_texture_lay_out(run, mapping, exemplars, layout));
+    memcpy(uvs, layout->leaf_uvs, 2 * sizeof *uvs * (size_t)corners);
+    *out = *mapping;
+    out->uvs = uvs;
+    out->patch_exemplar = NULL;
+    return OSDTEX_OK;
+}
+
+static otx_status
+write_named(
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
+    const otx_model_options *options, const otx_names *names, int32_t *uv_count)
+{
+    texture_source from = {mapping, exemplars, NULL};
+    otx_mapping flat = *mapping;
+    otx_layout layout;
+
+    if (otx_baked_texture_is_needed(mapping))
+    {
+        OTX_TRY(flatten_pastes(run, mapping, exemplars, &layout, &flat));
+        from.layout = &layout;
+    }
+    return write_model(run, &flat, &from, names, options, uv_count);
 }
 
 otx_status
@@ -478,21 +550,18 @@ otx_model_write(
     const otx_model_options *options, otx_model_files *out)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    material_list materials = {0};
+    const int32_t textures =
+        otx_baked_texture_is_needed(mapping) ? 1 : otx_source_count(mapping);
     otx_names names;
-    otx_obj obj;
     otx_status status;
+    int32_t uv_count = 0;
 
     *out = (otx_model_files){0};
     OTX_TRY(otx_names_derive(run, run->arena, options->path, &names));
     OTX_TRY(otx_names_number(
-        run, run->arena, otx_source_count(mapping),
-        otx_texture_file_extension(exemplars), &names));
-    status =
-        describe_obj(run, mapping, &names, options->normals, &obj, &materials);
-    if (status == OSDTEX_OK)
-        status = write_files(
-            run, mapping, &names, &obj, &materials, exemplars, options);
+        run, run->arena, textures, otx_texture_file_extension(exemplars),
+        &names));
+    status = write_named(run, mapping, exemplars, options, &names, &uv_count);
     otx_arena_release(run->scratch, mark);
     if (status != OSDTEX_OK)
         return status;
@@ -500,7 +569,7 @@ otx_model_write(
         .obj = names.obj,
         .mtl = names.mtl,
         .exr = options->without_image ? NULL : names.textures[0],
-        .uv_count = obj.uv_count,
+        .uv_count = uv_count,
     };
     return OSDTEX_OK;
 }

@@ -34,7 +34,8 @@ typedef struct otx_model_files
 
 /* Writes the leaf level of `mapping` on the limit surface as NAME.obj, its
  * materials as NAME.mtl, the exemplar as NAME.exr; several exemplars as
- * NAME_1.exr and so on.
+ * NAME_1.exr and so on. A mapping of pastes over one another is baked instead:
+ * its UVs are those of an atlas, whose texture NAME.exr is.
  *
  * Vertices and faces keep their order: faces are the children of cage face 0,
  * of cage face 1, …; holes are left out, vertices that no face uses stay.

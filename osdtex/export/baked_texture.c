@@ -1,0 +1,132 @@
+/* baked_texture.c -- one texture for a mapping that no single UV a corner can
+ * stand for. */
+#include "export/baked_texture.h"
+
+#include "bake/bake.h"
+#include "export/texture_file.h"
+#include "file/exr.h"
+
+#include <string.h>
+
+static const char STAGE[] = "export";
+
+enum
+{
+    SIDE_LEAST = 512,
+    SIDE_MOST = 8192
+};
+
+/* Share of an atlas that its faces fill, about. */
+static const double FILLED = 0.7;
+
+bool
+otx_baked_texture_is_needed(const otx_mapping *mapping)
+{
+    return mapping->lookups && mapping->lookups->layering == OTX_LAYERING_OVER;
+}
+
+otx_status
+otx_baked_texture_lay_out(
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
+    otx_layout *out)
+{
+    const double texels = exemplars->linear.width / mapping->scale;
+    const double needed =
+        sqrt(mapping->surface->area * texels * texels / FILLED);
+    otx_layout_options options = {
+        .source = OTX_LAYOUT_ATLAS, .side = SIDE_LEAST};
+
+    while (options.side < needed && options.side < SIDE_MOST)
+        options.side *= 2;
+    return otx_layout_build(run, mapping, &options, out);
+}
+
+/* Where blocks go. */
+typedef struct target
+{
+    otx_exr_writer *exr; /* NULL: into the image */
+    otx_image image;
+    otx_exr_chunk chunks[OTX_BAKE_SLOTS];
+} target;
+
+static void
+take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
+{
+    target *t = user;
+
+    if (t->exr)
+        otx_exr_pack(
+            t->exr, lane, block->level, block->x, block->y, block->pixels,
+            block->stride, &t->chunks[slot]);
+    else
+        otx_bake_copy(block, &t->image);
+}
+
+static otx_status
+put(void *user, int32_t slot, int32_t level, int32_t x, int32_t y)
+{
+    target *t = user;
+
+    return t->exr ? otx_exr_put(t->exr, level, x, y, &t->chunks[slot])
+                  : OSDTEX_OK;
+}
+
+static otx_status
+write_exr(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_exemplar *exemplar, otx_bake *bake)
+{
+    const int32_t side = bake->source.layout->side;
+    const otx_exr_size size = {side, side, bake->source.channels};
+    otx_exr_options options = otx_exr_options_default();
+    target *t = OTX_ZNEW(run->scratch, target, 1);
+    const otx_bake_sink sink = {
+        .take = take, .put = put, .user = t, .share = 1.0};
+
+    if (!t)
+        return otx_fail_memory(run, STAGE);
+    options.has_chromaticities = exemplar->has_chromaticities;
+    memcpy(
+        options.chromaticities, exemplar->chromaticities,
+        sizeof options.chromaticities);
+    options.color_space = exemplar->linear_space;
+    options.interop_id = exemplar->interop_id;
+    OTX_TRY(otx_exr_begin(run, set, path, size, &options, &t->exr));
+    for (int32_t i = 0; i < OTX_BAKE_SLOTS; ++i)
+        t->chunks[i].bytes =
+            OTX_NEW(run->scratch, uint8_t, otx_exr_packed_bytes(t->exr));
+    OTX_TRY(otx_run_ok(run));
+    OTX_TRY(otx_bake_tile(run, bake, 0, &sink));
+    return otx_exr_end(t->exr);
+}
+
+static otx_status
+write_png(
+    otx_run *run, otx_atomic_file_set *set, const char *path, otx_bake *bake)
+{
+    const int32_t side = bake->source.layout->side;
+    target *t = OTX_ZNEW(run->scratch, target, 1);
+    const otx_bake_sink sink = {
+        .take = take, .put = put, .user = t, .level_count = 1, .share = 1.0};
+
+    if (!t)
+        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_image_create(
+        run, run->scratch, side, side, bake->source.channels, &t->image));
+    OTX_TRY(otx_bake_tile(run, bake, 0, &sink));
+    return otx_texture_file_write_png(run, set, path, &t->image);
+}
+
+otx_status
+otx_baked_texture_write(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_mapping *mapping, const otx_exemplar *exemplars,
+    const otx_layout *layout)
+{
+    const otx_bake_options options = {.kind = OTX_TEXEL_COLOR};
+    otx_bake bake;
+
+    OTX_TRY(otx_bake_create(run, mapping, exemplars, layout, &options, &bake));
+    return exemplars->as_png ? write_png(run, set, path, &bake)
+                             : write_exr(run, set, path, exemplars, &bake);
+}
