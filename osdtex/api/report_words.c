@@ -53,6 +53,16 @@ static const otx_report_words MAPPING[] = {
     {"mapping.lattice.blended_faces", "faces", "Faces that a bake mixes."},
     {"mapping.lattice.gradient_error", "",
      "RMS departure of the steps of the coordinates from the field's."},
+    {"mapping.lapped.pastes", "pastes", "Pieces that were laid down."},
+    {"mapping.lapped.touched", "layers",
+     "Pieces that lie on a face, mean by area, before hidden ones are left "
+     "out."},
+    {"mapping.lapped.visible", "layers",
+     "Pieces that are seen on a face, mean by area."},
+    {"mapping.lapped.misfit_right", "",
+     "RMS distance of the picture's u axis from where the field has it; 1 is "
+     "the axis' length."},
+    {"mapping.lapped.misfit_up", "", "The same of the v axis."},
 };
 
 static const otx_report_words SEAMS[] = {

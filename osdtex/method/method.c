@@ -7,6 +7,7 @@
 #include <string.h>
 
 extern const otx_method otx_method_hierarchical;
+extern const otx_method otx_method_lapped;
 extern const otx_method otx_method_material;
 extern const otx_method otx_method_tile;
 
@@ -14,6 +15,7 @@ static const otx_method *const METHODS[] = {
     &otx_method_hierarchical,
     &otx_method_material,
     &otx_method_tile,
+    &otx_method_lapped,
 };
 
 int32_t

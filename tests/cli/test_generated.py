@@ -20,7 +20,7 @@ from program import (
     ENVIRONMENT, EXEMPLARS, PROGRAM, ProgramTest, main)
 
 CASES = int(os.environ.get("CASES", 300))
-METHODS = ("hierarchical", "material", "tile")
+METHODS = ("hierarchical", "material", "tile", "lapped")
 SCHEMES = (None, None, "catmark", "loop", "bilinear", "none")
 TILES = "tiles.exr"  # what method tile takes, made of one of the others
 PICTURES = ("gravel_tile.png", "stones_open.png", "bricks_tile.png")

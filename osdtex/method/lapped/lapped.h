@@ -1,0 +1,132 @@
+/* lapped.h -- what the parts of lapped textures hand to each other
+ * [Praun00].
+ *
+ * A texture patch is a piece of the exemplar, cut out by a mask. A chart is a
+ * piece of the surface laid out over it: a paste. Later pastes lie over
+ * earlier ones. Positions in a chart are in texels about the middle of its
+ * texture patch. See docs/notes/lapped.md. */
+#ifndef OTX_METHOD_LAPPED_LAPPED_H
+#define OTX_METHOD_LAPPED_LAPPED_H
+
+#include "field/connection.h"
+#include "method/lapped/samples.h"
+#include "method/method.h"
+
+typedef enum otx_lapped_mode
+{
+    OTX_LAPPED_AUTO,
+    OTX_LAPPED_SPLOTCH, /* pieces that are cut where they differ least */
+    OTX_LAPPED_PAPER    /* as published: ramps, places by chance */
+} otx_lapped_mode;
+
+/* A sample counts as covered from this alpha on. */
+static const double OTX_LAPPED_COVERED = 0.995;
+
+typedef struct otx_lapped_settings
+{
+    double radius;  /* of texture patches, texels; 0 automatic */
+    double feather; /* texels; negative: automatic */
+    int32_t mode;
+    int32_t outline; /* otx_lapped_outline */
+} otx_lapped_settings;
+
+/* A piece of the surface laid out in the plane. Corners of its faces are in
+ * the order of the leaf's. */
+typedef struct otx_lapped_chart
+{
+    int32_t face_count, vert_count;
+    int32_t *faces;   /* [face_count] leaf faces; the seed's first */
+    int32_t *first;   /* [face_count + 1] into corners */
+    int32_t *corners; /* chart vertices */
+    int32_t *verts;   /* [vert_count] leaf vertices */
+    otx_vec2 *flat;   /* [vert_count] texels about the patch's middle */
+    otx_vec3 *rights; /* [face_count] what is to lie along the picture's u */
+    float *rim;       /* [vert_count] 0 at a border that cuts the patch off,
+                       * 1 away from it */
+} otx_lapped_chart;
+
+typedef struct otx_lapped_paste
+{
+    otx_lapped_chart chart;
+    otx_vec2 centre; /* of the texture patch in the exemplar, texels */
+    otx_radial *cut; /* what of it is seen, texels about its middle */
+} otx_lapped_paste;
+
+typedef enum otx_lapped_outline
+{
+    OTX_LAPPED_OUTLINE_SPLOTCH,
+    OTX_LAPPED_OUTLINE_CIRCLE
+} otx_lapped_outline;
+
+/* Where slots of faces and vertices lie while a chart grows. */
+typedef struct otx_lapped_space
+{
+    int32_t *face_slot; /* [leaf face_count] chart face or -1 */
+    int32_t *vert_slot; /* [leaf vert_count] chart vertex or -1 */
+} otx_lapped_space;
+
+typedef struct otx_lapped
+{
+    const otx_job *job;
+    otx_run *run;
+    const otx_surface *surface;
+    const otx_level *leaf;
+    const otx_exemplar *exemplar;
+    otx_connection connection;
+    otx_guide guide; /* without directions: those of seeds are carried on */
+    otx_lapped_settings settings;
+    double texels; /* per scene unit */
+    otx_lapped_space space;
+    otx_samples samples;
+    otx_lapped_paste *pastes; /* [paste_count], bottom first */
+    int32_t paste_count;
+    int32_t paste_capacity;
+} otx_lapped;
+
+/* Where a paste begins. */
+typedef struct otx_lapped_seed
+{
+    int32_t face;
+    otx_sample_place place; /* on it */
+    otx_vec2 heading; /* S in the frame of the face, where no guide says */
+} otx_lapped_seed;
+
+/* Where a sample of a leaf face is on the surface. */
+otx_vec3 otx_lapped_point(const otx_lapped *l, const otx_sample_place *sample);
+
+/* Grows a chart from a seed until the outline, enlarged, lies inside it, and
+ * lays it out along the field [Praun00, sec. 3.3, 3.4]. In `arena`. MEMORY,
+ * CANCELLED. */
+otx_status otx_lapped_unfold(
+    const otx_lapped *l, const otx_lapped_seed *seed, const otx_radial *outline,
+    otx_arena *arena, otx_lapped_chart *out);
+
+/* Makes chart->rim: the border cuts the patch off where it runs inside of the
+ * outline, unless the surface ends there. MEMORY. */
+otx_status otx_lapped_rim(
+    const otx_lapped *l, const otx_radial *outline, otx_arena *arena,
+    otx_lapped_chart *chart);
+
+/* Texels per scene unit at a leaf face. */
+static inline double
+otx_lapped_texels(const otx_lapped *l, int32_t face)
+{
+    const int32_t first = l->leaf->face_first[face];
+
+    return l->texels * otx_surface_density(
+                           l->surface, l->leaf->face_verts + first,
+                           otx_level_face_size(l->leaf, face));
+}
+
+/* Where a sample of a chart's face lies in its plane. */
+otx_vec2 otx_lapped_place(
+    const otx_lapped *l, const otx_lapped_chart *chart, int32_t slot,
+    const otx_sample_place *sample);
+
+/* Marks the samples that a paste covers, and keeps what it shows there. */
+void otx_lapped_mark(otx_lapped *l, const otx_lapped_paste *paste);
+
+/* Makes the mapping of all pastes, without what nobody sees. */
+otx_status otx_lapped_compose(otx_lapped *l, otx_mapping *out);
+
+#endif

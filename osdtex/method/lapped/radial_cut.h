@@ -1,0 +1,18 @@
+/* radial_cut.h -- what of a texture patch is pasted: a closed path round its
+ * middle along which it differs least from what lies there.
+ *
+ * The paper blends over a ramp, which shows two pictures at once. A path along
+ * equal colours with a narrow feather does not [Kwatra03], and as a closed
+ * radial one it is found by dynamic programming at a thirtieth of a maximum
+ * flow's time. */
+#ifndef OTX_METHOD_LAPPED_RADIAL_CUT_H
+#define OTX_METHOD_LAPPED_RADIAL_CUT_H
+
+#include "method/lapped/lapped.h"
+
+/* Draws paste->cut in: `outline` is the furthest that it goes. Temporaries lie
+ * in run->scratch. MEMORY. */
+otx_status otx_lapped_cut(
+    const otx_lapped *l, const otx_radial *outline, otx_lapped_paste *paste);
+
+#endif

@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""Lapped textures through the program: what is written, and saved."""
+
+import json
+
+from program import CAGES, EXEMPLARS, ProgramTest, main
+
+CAGE = CAGES / "torus.obj"
+PICTURE = EXEMPLARS / "gravel_tile.png"
+HOW = ("--method", "lapped", "--level", "3")
+
+
+class Lapped(ProgramTest):
+    def pixels(self):
+        """The end of the texture: its header has the name of the job in it."""
+        return (self.folder / "out.exr").read_bytes()[-4000:]
+
+    def test_mesh_gets_an_atlas_and_its_texture(self):
+        report = self.folder / "out.json"
+        result = self.run_map(CAGE, PICTURE, *HOW, "--json-report", report)
+        self.assert_exit(result, 0)
+        numbers = json.loads(report.read_text())
+        lapped = numbers["mapping"]["lapped"]
+        self.assertGreater(lapped["pastes"], 1)
+        self.assertTrue(1 <= lapped["visible"] <= 3.2)
+        self.assertEqual(numbers["distortion"]["flips"], 0)
+        lines = (self.folder / "out.obj").read_text().splitlines()
+        seen = set()
+        for line in lines:
+            if line.startswith("vt "):
+                u, v = (float(x) for x in line.split()[1:3])
+                self.assertTrue(0 <= u <= 1 and 0 <= v <= 1)
+                seen.add((u, v))
+        self.assertGreater(len(seen), 100)
+        self.assertGreater((self.folder / "out.exr").stat().st_size, 10000)
+
+    def test_saved_and_written_again_is_the_same(self):
+        saved = self.folder / "it.osdtex"
+        self.assert_exit(self.run_map(CAGE, PICTURE, *HOW, "--save", saved), 0)
+        first = self.pixels()
+        result = self.run_program(
+            "map", "--from", saved, "-o", self.folder / "out.obj")
+        self.assert_exit(result, 0)
+        self.assertEqual(first, self.pixels())
+
+    def test_what_takes_for_ever_is_refused(self):
+        result = self.run_map(CAGE, PICTURE, *HOW, "--scale", "1e-4")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("--scale", result.stderr)
+
+
+if __name__ == "__main__":
+    main()
