@@ -1,8 +1,8 @@
 /* mip_level.c -- what each block of a level has to look at. */
 #include "bake/mip_level.h"
 
-#include "surface/facet.h"
 #include "image/pyramid.h"
+#include "surface/facet.h"
 
 #include <string.h>
 

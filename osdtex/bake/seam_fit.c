@@ -2,8 +2,8 @@
  */
 #include "bake/seam_fit.h"
 
-#include "surface/facet.h"
 #include "mapping/source.h"
+#include "surface/facet.h"
 
 /* The table of the C++ library is not linked. */
 #define IMATH_HALF_NO_LOOKUP_TABLE

@@ -6,8 +6,8 @@
 #ifndef OTX_BAKE_WALK_H
 #define OTX_BAKE_WALK_H
 
-#include "surface/facet.h"
 #include "math/vec.h"
+#include "surface/facet.h"
 #include "surface/surface.h"
 
 /* A place on the surface, and where the texels beside it are. */
