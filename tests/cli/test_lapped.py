@@ -7,7 +7,7 @@ from program import CAGES, EXEMPLARS, ProgramTest, main
 
 CAGE = CAGES / "torus.obj"
 PICTURE = EXEMPLARS / "gravel_tile.png"
-HOW = ("--method", "lapped", "--level", "3")
+HOW = ("--method", "lapped", "--level", "3", "--scale", "2")
 
 
 class Lapped(ProgramTest):
