@@ -349,19 +349,6 @@ put_seams(json_t *root, const otx_measure *measure)
     set_real(windows, "interior_p90", measure->window_interior_p90);
 }
 
-/* What an artist would see as torn texture is said aloud, not in the report
- * alone; reversed and uncovered faces were said when the mapping was made. */
-static void
-say_folds(otx_run *run, const otx_measure *measure)
-{
-    if (measure->folds > 0)
-        otx_note(
-            run, OSDTEX_SEVERITY_WARNING, "measure", OTX_NOWHERE,
-            "%d faces are folded over in UV, and the texture is torn there; a "
-            "higher {level} or a smaller {scale} bends it less",
-            (int)measure->folds);
-}
-
 static void
 put_distortion(json_t *root, const otx_measure *measure)
 {
@@ -452,7 +439,6 @@ otx_report_build(
     run->seed = mapping->seed;
     OTX_TRY(otx_measure_run(
         run, &mapping->mapping, mapping->exemplars, &how, &measure));
-    say_folds(run, &measure);
     root = json_object();
     if (!root || !otx_arena_defer(run->arena, release_json, root))
     {

@@ -2,6 +2,8 @@
  */
 #include "mapping/mapping_check.h"
 
+#include "mapping/laid_face.h"
+#include "mapping/seam.h"
 #include "mapping/source.h"
 #include "surface/limit.h"
 
@@ -258,6 +260,41 @@ check_winding(const checker *c)
     return OSDTEX_OK;
 }
 
+/* ----------------------------------------------------------------- folds */
+
+/* A triangle has no corner that could be reversed alone. */
+static bool
+is_folded(const checker *c, int32_t face)
+{
+    const otx_exemplar *e = &c->exemplars[otx_source_of(c->mapping, face)];
+    otx_laid_face laid;
+
+    if (c->leaf->face_hole[face] || lookup_count(c, face) > 0 ||
+        otx_level_face_size(c->leaf, face) < 4 || !(uv_area2(c, face) > 0.0))
+        return false;
+    otx_laid_face_set(
+        c->mapping, e, otx_seam_texels_per_unit(c->mapping, e), face, &laid);
+    return otx_laid_face_is_folded(&laid);
+}
+
+/* What an artist would see as torn texture is said aloud, not in a report
+ * alone. */
+static void
+say_folds(const checker *c)
+{
+    int32_t count = 0, first = -1;
+
+    for (int32_t f = 0; f < c->leaf->face_count; ++f)
+        if (is_folded(c, f))
+            first = count++ == 0 ? f : first;
+    if (count > 0)
+        otx_note(
+            c->run, OSDTEX_SEVERITY_WARNING, "map", where(c, first),
+            "%d faces are folded over in UV, and the texture is torn there; a "
+            "higher {level} or a smaller {scale} bends it less",
+            (int)count);
+}
+
 static otx_status
 check(const checker *c)
 {
@@ -269,7 +306,9 @@ check(const checker *c)
         OTX_TRY(check_uvs(c, f));
         OTX_TRY(check_lookups(c, f));
     }
-    return check_winding(c);
+    OTX_TRY(check_winding(c));
+    say_folds(c);
+    return OSDTEX_OK;
 }
 
 otx_status

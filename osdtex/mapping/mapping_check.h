@@ -23,7 +23,8 @@
  *   tile along that axis, but those of lookups over one another;
  * - winding: no more than a quarter of the area shows the exemplar reversed.
  *   Less than that is a defect of the texture, not of the program, as with
- *   coordinates that have dislocations: it is a warning.
+ *   coordinates that have dislocations: it is a warning;
+ * - folds: a warning where faces have a corner that is reversed alone.
  *
  *   surface    that was to be covered; mapping->surface may be a copy of it
  *              whose points differ

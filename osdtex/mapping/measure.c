@@ -9,25 +9,13 @@
 #include "mapping/measure.h"
 
 #include "mapping/coverage.h"
+#include "mapping/laid_face.h"
 #include "mapping/seam.h"
 #include "mapping/series.h"
 #include "mapping/window.h"
 #include "surface/limit.h"
 
-enum
-{
-    CORNERS_MAX = 64 /* of a face; longer ones are measured by their first */
-};
-
 static const char stage[] = "measure";
-
-/* A face laid into its plane, and its UVs, both in scene units. */
-typedef struct laid_face
-{
-    int32_t size;
-    otx_vec2 p[CORNERS_MAX];
-    otx_vec2 q[CORNERS_MAX];
-} laid_face;
 
 typedef struct survey
 {
@@ -38,84 +26,9 @@ typedef struct survey
     double texels_per_unit;
     otx_series l2, ratio, log_area;
     otx_coverage uses[OTX_EXEMPLARS_MAX];
-    laid_face face; /* the one at hand */
+    otx_laid_face face; /* the one at hand */
     int32_t source; /* the exemplar that it shows */
 } survey;
-
-static double
-polygon_area(const otx_vec2 *points, int32_t count)
-{
-    double area2 = 0.0;
-
-    for (int32_t k = 1; k + 1 < count; ++k)
-        area2 += otx_vec2_cross(
-            otx_vec2_sub(points[k], points[0]),
-            otx_vec2_sub(points[k + 1], points[0]));
-    return 0.5 * area2;
-}
-
-/* Unit vectors of the face's plane, e1 x e2 along the sum of its fan's cross
- * products. False when the face has no area. */
-static bool
-face_plane(const survey *s, int32_t face, otx_vec3 *e1, otx_vec3 *e2)
-{
-    const float *points = s->mapping->surface->points;
-    const int32_t *verts = s->leaf->face_verts + s->leaf->face_first[face];
-    const int32_t size = otx_level_face_size(s->leaf, face);
-    const otx_vec3 origin = otx_vec3_load(points, verts[0]);
-    otx_vec3 normal = {0.0, 0.0, 0.0}, longest = {0.0, 0.0, 0.0};
-
-    for (int32_t k = 1; k < size; ++k)
-    {
-        const otx_vec3 a =
-            otx_vec3_sub(otx_vec3_load(points, verts[k]), origin);
-
-        if (otx_vec3_dot(a, a) > otx_vec3_dot(longest, longest))
-            longest = a;
-        if (k + 1 < size)
-            normal = otx_vec3_add(
-                normal,
-                otx_vec3_cross(
-                    a,
-                    otx_vec3_sub(otx_vec3_load(points, verts[k + 1]), origin)));
-    }
-    normal = otx_vec3_unit(normal);
-
-    const double along = otx_vec3_dot(longest, normal);
-
-    *e1 = otx_vec3_unit(otx_vec3_mix(1.0, longest, -along, normal));
-    *e2 = otx_vec3_cross(normal, *e1);
-    return otx_vec3_dot(*e2, *e2) > 0.5;
-}
-
-static void
-lay_face(const survey *s, int32_t face, laid_face *out)
-{
-    const int32_t first = s->leaf->face_first[face];
-    const int32_t *verts = s->leaf->face_verts + first;
-    const float *points = s->mapping->surface->points;
-    const int32_t size = otx_level_face_size(s->leaf, face);
-    otx_vec3 e1, e2;
-    const bool flat = face_plane(s, face, &e1, &e2);
-    const double density =
-        otx_surface_density(s->mapping->surface, verts, size);
-
-    out->size = size < CORNERS_MAX ? size : CORNERS_MAX;
-    for (int32_t k = 0; k < out->size; ++k)
-    {
-        const otx_vec3 d = otx_vec3_sub(
-            otx_vec3_load(points, verts[k]), otx_vec3_load(points, verts[0]));
-
-        out->p[k] =
-            flat ? otx_vec2_scale(
-                       density,
-                       (otx_vec2){otx_vec3_dot(d, e1), otx_vec3_dot(d, e2)})
-                 : (otx_vec2){0.0, 0.0};
-        out->q[k] = otx_vec2_scale(
-            1.0 / s->texels_per_unit,
-            otx_seam_texel(s->mapping, &s->exemplars[s->source], first + k));
-    }
-}
 
 /* Sums of products of two centred point sets: xx xy yx yy. */
 static void
@@ -143,7 +56,7 @@ products(const otx_vec2 *a, const otx_vec2 *b, int32_t count, double sums[4])
 /* Singular values, first the larger, of the linear map that fits q to p.
  * False when the face or its map has no area, or the map is reversed. */
 static bool
-singular_values(const laid_face *face, double *larger, double *smaller)
+singular_values(const otx_laid_face *face, double *larger, double *smaller)
 {
     double pp[4], qp[4];
 
@@ -168,29 +81,8 @@ singular_values(const laid_face *face, double *larger, double *smaller)
     return *smaller > 0.0 && a * d - b * c > 0.0;
 }
 
-/* Whether a corner that is convex on the surface is reversed in UV. */
-static bool
-has_fold(const laid_face *face)
-{
-    for (int32_t k = 0; k < face->size; ++k)
-    {
-        const int32_t n = (k + 1) % face->size;
-        const int32_t m = (k + 2) % face->size;
-        const double surface = otx_vec2_cross(
-            otx_vec2_sub(face->p[n], face->p[k]),
-            otx_vec2_sub(face->p[m], face->p[n]));
-        const double uv = otx_vec2_cross(
-            otx_vec2_sub(face->q[n], face->q[k]),
-            otx_vec2_sub(face->q[m], face->q[n]));
-
-        if (surface > 0.0 && uv < 0.0)
-            return true;
-    }
-    return false;
-}
-
 static void
-use_face(survey *s, const laid_face *face)
+use_face(survey *s, const otx_laid_face *face)
 {
     for (int32_t k = 1; k + 1 < face->size; ++k)
     {
@@ -200,13 +92,13 @@ use_face(survey *s, const laid_face *face)
             otx_vec2_scale(s->texels_per_unit, face->q[k]),
             otx_vec2_scale(s->texels_per_unit, face->q[k + 1])};
 
-        otx_coverage_add(&s->uses[s->source], q, fabs(polygon_area(p, 3)));
+        otx_coverage_add(&s->uses[s->source], q, fabs(otx_laid_face_area(p, 3)));
     }
 }
 
 /* Texels by which a face leaves a picture that does not tile. */
 static double
-overhang(const survey *s, const laid_face *face)
+overhang(const survey *s, const otx_laid_face *face)
 {
     const otx_exemplar *exemplar = &s->exemplars[s->source];
     double most = 0.0;
@@ -226,14 +118,15 @@ overhang(const survey *s, const laid_face *face)
 static void
 survey_face(survey *s, int32_t index, otx_measure *out)
 {
-    laid_face *face = &s->face;
+    otx_laid_face *face = &s->face;
     double larger, smaller;
 
     s->source = otx_source_of(s->mapping, index);
-    lay_face(s, index, face);
+    otx_laid_face_set(
+        s->mapping, &s->exemplars[s->source], s->texels_per_unit, index, face);
 
-    const double area = polygon_area(face->p, face->size);
-    const double uv_area = polygon_area(face->q, face->size);
+    const double area = otx_laid_face_area(face->p, face->size);
+    const double uv_area = otx_laid_face_area(face->q, face->size);
     const double beyond = overhang(s, face);
     const bool flipped =
         !(uv_area > 0.0) &&
@@ -244,7 +137,7 @@ survey_face(survey *s, int32_t index, otx_measure *out)
         area * s->texels_per_unit * s->texels_per_unit;
     ++out->shares[s->source].faces;
     out->flips += flipped;
-    out->folds += uv_area > 0.0 && has_fold(face);
+    out->folds += uv_area > 0.0 && otx_laid_face_is_folded(face);
     out->outside += beyond > OTX_SEAM_TOLERANCE;
     out->outside_max = fmax(out->outside_max, beyond);
     use_face(s, face);

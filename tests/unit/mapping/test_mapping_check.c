@@ -164,6 +164,22 @@ a_mirrored_picture_is_refused_and_a_fold_is_said(void **state)
     assert_refused(&g, "reversed");
 }
 
+/* One corner is pulled over the others: the face has area, but is torn. */
+static void
+a_corner_that_is_reversed_is_said(void **state)
+{
+    fixture f = make(true);
+    float *uv = f.mapping->uvs + 8 * 7;
+
+    (void)state;
+    uv[4] = uv[0] + 0.25f * (uv[4] - uv[0]);
+    uv[5] = uv[1] + 0.25f * (uv[5] - uv[1]);
+    assert_int_equal(check(&f), OSDTEX_OK);
+    assert_int_equal(otx_diagnostics_count(f.run->diagnostics), 1);
+    assert_non_null(strstr(test_last_message(f.run), "1 faces are folded"));
+    test_run_destroy(f.run);
+}
+
 static void
 sources_that_are_not_given_are_refused(void **state)
 {
@@ -220,6 +236,7 @@ main(void)
         cmocka_unit_test(uvs_that_are_no_numbers_are_refused),
         cmocka_unit_test(what_leaves_a_picture_that_ends_is_refused),
         cmocka_unit_test(a_mirrored_picture_is_refused_and_a_fold_is_said),
+        cmocka_unit_test(a_corner_that_is_reversed_is_said),
         cmocka_unit_test(sources_that_are_not_given_are_refused),
         cmocka_unit_test(lookups_are_weighed_to_one),
     };
