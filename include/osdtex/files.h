@@ -102,12 +102,23 @@ OSDTEX_API void osdtex_outputs_inspect(
 OSDTEX_API osdtex_status osdtex_outputs_add(
     osdtex_context *context, const char *path, const char **temporary);
 
-/* Gives all files their names, but for those of calls that failed, and
- * ends the set in any case. CANCELLED by progress, ARGUMENT (no set), IO. */
+/* Does all of a commit that takes time or may fail for a reason: seals the
+ * files and has the disk store them. What is left is to rename them. CANCELLED
+ * by progress, ARGUMENT (no set), IO. */
+OSDTEX_API osdtex_status osdtex_outputs_seal(osdtex_context *context);
+
+/* Seals what is not sealed, gives all files their names, but for those of calls
+ * that failed, and ends the set in any case. CANCELLED by progress, ARGUMENT
+ * (no set), IO. */
 OSDTEX_API osdtex_status osdtex_outputs_commit(osdtex_context *context);
 
 /* Ends the set without its files; nothing where there is none. */
 OSDTEX_API void osdtex_outputs_drop(osdtex_context *context);
+
+/* Removes the unfinished files of this process from the folder of `path`: for a
+ * program that ends without waiting for the calls that write them. From any
+ * thread. */
+OSDTEX_API void osdtex_outputs_sweep(const char *path);
 
 OSDTEX_END_DECLS
 

@@ -2,6 +2,7 @@
 #include "api/call.h"
 #include "export/names.h"
 #include "file/atomic_file.h"
+#include "file/temporary.h"
 
 #include <string.h>
 
@@ -126,11 +127,27 @@ osdtex_outputs_add(
     return otx_call_drop(&call, add(&call, path, temporary));
 }
 
+static otx_status
+seal(otx_call *call)
+{
+    OTX_TRY(need_outputs(call));
+    return otx_atomic_file_seal(&call->run, call->context->outputs);
+}
+
+osdtex_status
+osdtex_outputs_seal(osdtex_context *context)
+{
+    otx_call call;
+
+    OTX_TRY(otx_call_begin(context, STAGE, &call));
+    return otx_call_drop(&call, seal(&call));
+}
+
 /* The last moment to stop: from here on there is no way back. */
 static otx_status
 commit(otx_call *call)
 {
-    OTX_TRY(need_outputs(call));
+    OTX_TRY(seal(call));
     OTX_TRY(otx_progress(&call->run, STAGE, 1.0));
     return otx_atomic_file_publish(&call->run, call->context->outputs);
 }
@@ -145,4 +162,11 @@ osdtex_outputs_commit(osdtex_context *context)
     status = otx_call_drop(&call, commit(&call));
     osdtex_outputs_drop(context);
     return status;
+}
+
+void
+osdtex_outputs_sweep(const char *path)
+{
+    if (path)
+        otx_temporary_sweep_own(path);
 }

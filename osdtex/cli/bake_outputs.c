@@ -146,16 +146,21 @@ otx_bake_outputs_are_done(
 /* ---- names ----------------------------------------------------------------
  */
 
-/* ".1001.exr", or the like of a PNG. */
-static bool
-is_tile(const char *text)
+/* The number of the tile in ".1001.exr", for that extension; 0 none. */
+static long
+tile_of(const char *text, const char *extension)
 {
-    const size_t number = *text == '.' ? strspn(text + 1, "0123456789") : 0;
+    const size_t digits = *text == '.' ? strspn(text + 1, "0123456789") : 0;
+    const bool is_tile =
+        digits >= 4 && strcasecmp(text + 1 + digits, extension) == 0;
 
-    if (number < 4)
-        return false;
-    text += 1 + number;
-    return strcasecmp(text, ".exr") == 0 || strcasecmp(text, ".png") == 0;
+    return is_tile ? strtol(text + 1, NULL, 10) : 0;
+}
+
+static bool
+is_asked_for(const osdtex_bake_options *options, long tile)
+{
+    return tile > 0 && (options->udim == 0 || tile == options->udim);
 }
 
 static const char *
@@ -166,32 +171,37 @@ base_of(const char *path)
     return slash ? slash + 1 : path;
 }
 
-/* Whether a file beside the cage is called as a texture of a bake is, be it
- * asked for this time or not. */
+/* Whether "_NAME.1001.exr" is of a kind called that. */
 static bool
-is_texture(const char *cage, const char *file)
+is_tile_of(
+    const osdtex_bake_options *options, const char *text, const char *name)
 {
+    return *text == '_' && strncasecmp(text + 1, name, strlen(name)) == 0 &&
+           is_asked_for(options, tile_of(text + 1 + strlen(name), ".exr"));
+}
+
+/* Whether a file beside the cage has the name of a texture that the bake is
+ * asked for. */
+static bool
+is_texture(const char *cage, const request *asked, const char *file)
+{
+    const osdtex_bake_options *options = asked->options;
     const size_t size = strlen(base_of(cage)) - strlen("_cage.obj");
 
     if (strncasecmp(file, base_of(cage), size) != 0)
         return false;
     file += size;
-    for (int kind = 0; kind < KIND_COUNT; ++kind)
-    {
-        const size_t length = strlen(KINDS[kind]);
-
-        if (strncasecmp(file, KINDS[kind], length) == 0 &&
-            is_tile(file + length))
+    if (is_asked_for(options, tile_of(file, asked->extension)) ||
+        (options->preview_png && is_asked_for(options, tile_of(file, ".png"))))
+        return true;
+    for (int kind = 1; kind < KIND_COUNT; ++kind)
+        if (options->extras & 1u << (kind - 1) &&
+            is_tile_of(options, file, KINDS[kind] + 1))
             return true;
-    }
-    for (int kind = 0; *file == '_' && kind < OSDTEX_MAP_KINDS; ++kind)
-    {
-        const char *name = osdtex_map_kind_name(kind);
-
-        if (strncasecmp(file + 1, name, strlen(name)) == 0 &&
-            is_tile(file + 1 + strlen(name)))
+    for (int kind = 0; kind < OSDTEX_MAP_KINDS; ++kind)
+        if (asked->maps & 1u << kind &&
+            is_tile_of(options, file, osdtex_map_kind_name(kind)))
             return true;
-    }
     return false;
 }
 
@@ -208,7 +218,7 @@ add(otx_path_list *list, const char *cage, const char *suffix)
 /* Which tiles there will be is not known yet; what matters is which are there.
  */
 static void
-add_textures(otx_path_list *list, const char *cage)
+add_textures(otx_path_list *list, const char *cage, const request *asked)
 {
     char *folder = strndup(cage, (size_t)(base_of(cage) - cage));
     const size_t base = strlen(base_of(cage)) - strlen("_cage.obj");
@@ -220,7 +230,7 @@ add_textures(otx_path_list *list, const char *cage)
     list->out_of_memory |= !folder;
     for (int i = 0; i < count; ++i)
     {
-        if (is_texture(cage, entries[i]->d_name))
+        if (is_texture(cage, asked, entries[i]->d_name))
             add(list, cage, entries[i]->d_name + base);
         free(entries[i]);
     }
@@ -231,24 +241,30 @@ add_textures(otx_path_list *list, const char *cage)
 
 void
 otx_bake_outputs_list(
-    const char *cage, const osdtex_bake_options *options, otx_path_list *out)
+    const char *cage, const osdtex_bake_options *options, uint32_t maps,
+    const char *extension, otx_path_list *out)
 {
+    const request asked = {options, maps, extension};
+
     add(out, cage, "_cage.obj");
     add(out, cage, "_cage.mtl");
     add(out, cage, ".usda");
     add(out, cage, ".mtlx");
     if (options->preview_png)
         add(out, cage, "_preview.mtl");
-    add_textures(out, cage);
+    add_textures(out, cage, &asked);
 }
 
 bool
-otx_bake_outputs_may_be(const char *cage, const char *path)
+otx_bake_outputs_may_be(
+    const char *cage, const osdtex_bake_options *options, uint32_t maps,
+    const char *extension, const char *path)
 {
+    const request asked = {options, maps, extension};
     otx_path_list pair = {0};
     bool same;
 
-    if (!path || !is_texture(cage, base_of(path)))
+    if (!path || !is_texture(cage, &asked, base_of(path)))
         return false;
     otx_path_list_add(&pair, cage);
     otx_path_list_add(&pair, path);

@@ -22,17 +22,20 @@ bool otx_bake_outputs_are_done(
     const char *cage, const osdtex_bake_options *options, uint32_t maps,
     const char *extension, const char hash[OSDTEX_HASH_BYTES]);
 
-/* Adds the files that a bake writes: the texts, and those textures that are
- * there already, since which tiles there will be is not known yet.
+/* Adds the files that a bake writes: the texts, and those of the textures asked
+ * for that are there already, since which tiles there will be is not known yet.
  *
- *   cage  as above */
+ *   cage, maps, extension  as above */
 void otx_bake_outputs_list(
-    const char *cage, const osdtex_bake_options *options, otx_path_list *out);
+    const char *cage, const osdtex_bake_options *options, uint32_t maps,
+    const char *extension, otx_path_list *out);
 
 /* Whether the name of another output may be that of a texture of the bake.
  *
- *   cage  as above
- *   path  NULL allowed */
-bool otx_bake_outputs_may_be(const char *cage, const char *path);
+ *   cage, maps, extension  as above
+ *   path                   NULL allowed */
+bool otx_bake_outputs_may_be(
+    const char *cage, const osdtex_bake_options *options, uint32_t maps,
+    const char *extension, const char *path);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "cli/also_flags.h"
 #include "cli/saved_files.h"
+#include "cli/stop.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -248,8 +249,10 @@ otx_guard_check(
     const otx_path_list *outputs)
 {
     otx_path_list inputs = {0};
-    osdtex_status status = otx_guard_inputs(session->context, values, &inputs);
+    osdtex_status status;
 
+    otx_stop_watch(outputs);
+    status = otx_guard_inputs(session->context, values, &inputs);
     if (status == OSDTEX_OK && (inputs.out_of_memory || outputs->out_of_memory))
         status = OSDTEX_ERROR_MEMORY;
     if (status == OSDTEX_OK)

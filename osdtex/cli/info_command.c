@@ -1,6 +1,7 @@
 /* info_command.c -- osdtex info: what a file is, as osdtex sees it. */
 #include "cli/inputs.h"
 #include "cli/session.h"
+#include "cli/stop.h"
 #include "cli/spool.h"
 #include "cli/value.h"
 
@@ -196,6 +197,7 @@ run_on_configuration(const otx_flag_values *values)
         with.text[OTX_FLAG_COLORCONFIG] = values->operands[0];
     if (!otx_session_begin(&session, &with))
         return session.exit_code;
+    otx_stop_watch(NULL);
     return otx_session_end(&session, inspect_configuration(session.context));
 }
 
@@ -280,6 +282,7 @@ otx_info_command_run(const otx_flag_values *values)
         return run_on_configuration(values);
     if (!otx_session_begin(&session, values))
         return session.exit_code;
+    otx_stop_watch(NULL);
     status =
         inspect(session.context, path, name, &cage_options, &exemplar_options);
     return otx_session_end(&session, status);

@@ -226,7 +226,10 @@ pictures_are_apart(const otx_map_request *r)
         r->preview, r->report, r->maps ? r->exrs[0] : NULL};
 
     for (int i = 0; r->bakes && i < 3; ++i)
-        if (otx_bake_outputs_may_be(r->cage_obj, others[i]))
+        if (otx_bake_outputs_may_be(
+                r->cage_obj, &r->bake_options,
+                otx_material_flags_kinds(&r->material), texture_extension(r),
+                others[i]))
         {
             otx_session_refuse(
                 "'%s' may be the name of a baked texture too; give it another "
@@ -332,7 +335,9 @@ otx_map_request_outputs(const otx_map_request *r, otx_path_list *out)
             otx_path_list_add(out, path);
     }
     if (r->bakes)
-        otx_bake_outputs_list(r->cage_obj, &r->bake_options, out);
+        otx_bake_outputs_list(
+            r->cage_obj, &r->bake_options,
+            otx_material_flags_kinds(&r->material), texture_extension(r), out);
     otx_path_list_add(out, r->preview);
     otx_path_list_add(out, r->report);
     otx_path_list_add(out, r->save);

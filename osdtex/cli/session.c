@@ -1,11 +1,11 @@
 /* session.c -- findings, progress, signals. */
 #include "cli/session.h"
 #include "cli/spool.h"
+#include "cli/stop.h"
 #include "cli/value.h"
 
 #include "regress/process.h"
 
-#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,53 +19,10 @@ enum
     LINE_BYTES = 16384 /* names of several files fit */
 };
 
-/* All that a signal handler touches; a process has one of each. */
-static volatile sig_atomic_t caught_signal;
-static volatile sig_atomic_t is_committing;
-
-/* The first one stops the work. A second one from a person kills at once, since
- * somebody means it, but not while files take their names. */
-static void
-catch_signal(int number)
-{
-    const bool is_meant =
-        number == SIGINT || number == SIGTERM || number == SIGQUIT;
-
-    if (caught_signal && is_meant && !is_committing)
-    {
-        signal(number, SIG_DFL);
-        raise(number);
-    }
-    if (!caught_signal)
-        caught_signal = number;
-}
-
-/* Everything that would end the process, and that it may clean up after. What
- * the caller ignores (nohup) stays ignored. */
-static void
-listen_to_signals(void)
-{
-    static const int numbers[] = {SIGINT,  SIGTERM, SIGQUIT,   SIGHUP,
-                                  SIGXCPU, SIGUSR1, SIGUSR2,   SIGALRM,
-                                  SIGPROF, SIGPWR,  SIGVTALRM, SIGIO};
-    struct sigaction action = {0}, before;
-
-    action.sa_handler = catch_signal;
-    sigemptyset(&action.sa_mask);
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i)
-        if (sigaction(numbers[i], NULL, &before) == 0 &&
-            before.sa_handler != SIG_IGN)
-            sigaction(numbers[i], &action, NULL);
-    /* A closed pipe and a file too large (ulimit -f) are errors of the write,
-     * not deaths that leave half a file. */
-    signal(SIGPIPE, SIG_IGN);
-    signal(SIGXFSZ, SIG_IGN);
-}
-
 bool
 otx_session_is_stopped(void)
 {
-    return caught_signal != 0;
+    return otx_stop_signal() != 0;
 }
 
 double
@@ -234,7 +191,7 @@ show_progress(void *user, const char *stage, double fraction)
     const double t = otx_process_seconds();
     const int percent = (int)(100.0 * fraction);
 
-    if (caught_signal)
+    if (otx_stop_signal())
         return false;
     if (session->quiet || t - session->shown < interval)
         return true;
@@ -325,7 +282,7 @@ otx_session_begin(otx_session *session, const otx_flag_values *values)
     options.log = put_finding;
     options.log_user = session;
     options.colorconfig = values->text[OTX_FLAG_COLORCONFIG];
-    listen_to_signals();
+    otx_stop_listen();
     status = osdtex_context_create(&options, &session->context);
     if (status == OSDTEX_OK)
         status = osdtex_outputs_begin(session->context);
@@ -369,17 +326,18 @@ exit_code_of(osdtex_status status)
 osdtex_status
 otx_session_commit(otx_session *session)
 {
-    osdtex_status status;
+    const osdtex_status status = osdtex_outputs_seal(session->context);
 
-    is_committing = 1;
-    status = osdtex_outputs_commit(session->context);
-    is_committing = 0;
-    return status;
+    if (status != OSDTEX_OK)
+        return status;
+    otx_stop_never();
+    return osdtex_outputs_commit(session->context);
 }
 
 int
 otx_session_end(otx_session *session, osdtex_status status)
 {
+    otx_stop_unwatch();
     wipe_bar(session);
     put_repeats(session);
     osdtex_context_destroy(session->context);
@@ -391,5 +349,5 @@ otx_session_end(otx_session *session, osdtex_status status)
     fprintf(
         stderr, "osdtex: stopped; %s\n",
         session->remains ? session->remains : "nothing was written");
-    return caught_signal ? 128 + caught_signal : OTX_EXIT_LIMIT;
+    return otx_stop_signal() ? 128 + otx_stop_signal() : OTX_EXIT_LIMIT;
 }

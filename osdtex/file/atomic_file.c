@@ -5,9 +5,11 @@
  * disk) fails before the first rename: temporaries are made in the final
  * folder, and what is durable is synced first. While files take their names,
  * those that they replace are kept under second names, and come back when one
- * of them cannot. */
+ * of them cannot; a journal in each folder has the next run complete what a
+ * kill has cut short. */
 #include "file/atomic_file.h"
 
+#include "file/journal.h"
 #include "file/mark.h"
 #include "file/temporary.h"
 
@@ -28,6 +30,7 @@ typedef struct entry
     const char *old; /* what `path` was before the commit; NULL none */
     bool existed;    /* `path` did, when the temporary was made */
     bool finished;   /* its writer says so */
+    bool sealed;
     bool renamed;
 } entry;
 
@@ -35,7 +38,9 @@ struct otx_atomic_file_set
 {
     otx_arena *arena;
     entry *first;
-    entry **last; /* where the next one goes */
+    entry **last;          /* where the next one goes */
+    const char **journals; /* while files take their names */
+    int32_t journal_count;
     bool is_shared;
     bool durable; /* asked for by the writer of one of them */
 };
@@ -59,6 +64,9 @@ discard(otx_atomic_file_set *set)
         if (e->old)
             unlink(e->old);
     }
+    for (int32_t i = 0; i < set->journal_count; ++i)
+        unlink(set->journals[i]);
+    set->journal_count = 0;
     set->first = NULL;
     set->last = &set->first;
 }
@@ -156,9 +164,9 @@ otx_atomic_file_add(
         e->path = otx_arena_strdup(set->arena, path);
     if (!e || !e->path)
         return otx_fail_memory(run, STAGE);
-    OTX_TRY(check_target(run, path, &e->existed));
     if (!knows_folder(set, path))
         otx_temporary_sweep(path);
+    OTX_TRY(check_target(run, path, &e->existed));
     error = otx_temporary_create(set->arena, path, NULL, &e->temporary);
     if (error == ENOMEM)
         return otx_fail_memory(run, STAGE);
@@ -203,44 +211,123 @@ take_back(otx_atomic_file_set *set)
     discard(set);
 }
 
-/* Gives the finished files their names. */
+/* What is about to be renamed, by folders; *count 0 where it is one file. */
+static const otx_journal_line *
+list_renames(const otx_atomic_file_set *set, int32_t *count)
+{
+    otx_journal_line *lines;
+    int32_t all = 0;
+
+    *count = 0;
+    for (const entry *e = set->first; e; e = e->next)
+        all += e->finished;
+    lines = OTX_NEW(set->arena, otx_journal_line, all);
+    for (const entry *e = set->first; lines && e; e = e->next)
+        if (e->finished)
+            lines[(*count)++] = (otx_journal_line){e->temporary, e->path};
+    if (*count == 1)
+        *count = 0;
+    return lines;
+}
+
+/* Whether an earlier line is of the same folder. */
+static bool
+has_journal(const otx_journal_line *lines, int32_t i)
+{
+    const char *slash = strrchr(lines[i].path, '/');
+    const size_t length = slash ? (size_t)(slash - lines[i].path) + 1 : 0;
+
+    for (int32_t k = 0; k < i; ++k)
+        if (strncmp(lines[k].path, lines[i].path, length) == 0 &&
+            !strchr(lines[k].path + length, '/'))
+            return true;
+    return false;
+}
+
+static otx_status
+write_journals(otx_run *run, otx_atomic_file_set *set)
+{
+    int32_t count;
+    const otx_journal_line *lines = list_renames(set, &count);
+
+    set->journals = OTX_NEW(set->arena, const char *, count);
+    if (!lines || !set->journals)
+        return otx_fail_memory(run, STAGE);
+    for (int32_t i = 0; i < count; ++i)
+    {
+        int error;
+
+        if (has_journal(lines, i))
+            continue;
+        error = otx_journal_write(
+            set->arena, lines + i, count - i,
+            &set->journals[set->journal_count]);
+        if (error != 0)
+            return fail_errno(
+                run, lines[i].path, "the file cannot be written", error);
+        ++set->journal_count;
+    }
+    return OSDTEX_OK;
+}
+
+/* Gives a finished file its name; 0 or an error number. */
+static int
+rename_one(otx_atomic_file_set *set, entry *e)
+{
+    if (e->existed)
+        otx_temporary_create(set->arena, e->path, e->path, &e->old);
+    if (rename(e->temporary, e->path) != 0)
+        return errno;
+    e->renamed = true;
+    return 0;
+}
+
 static otx_status
 rename_all(otx_run *run, otx_atomic_file_set *set)
 {
+    OTX_TRY(write_journals(run, set));
     for (entry *e = set->first; e; e = e->next)
     {
-        if (!e->finished)
-            continue;
-        if (e->existed)
-            otx_temporary_create(set->arena, e->path, e->path, &e->old);
-        if (rename(e->temporary, e->path) != 0)
+        const int error = e->finished ? rename_one(set, e) : 0;
+
+        if (error != 0)
         {
             const otx_status status = fail_errno(
-                run, e->path, "the finished file cannot take its name", errno);
+                run, e->path, "the finished file cannot take its name", error);
 
             take_back(set);
             return status;
         }
-        e->renamed = true;
     }
     discard(set);
     return OSDTEX_OK;
 }
 
 otx_status
-otx_atomic_file_publish(otx_run *run, otx_atomic_file_set *set)
+otx_atomic_file_seal(otx_run *run, otx_atomic_file_set *set)
 {
-    for (const entry *e = set->first; e; e = e->next)
+    for (entry *e = set->first; e; e = e->next)
     {
-        const int error = e->finished ? otx_mark_seal(e->temporary) : 0;
+        int error;
 
+        if (!e->finished || e->sealed)
+            continue;
+        OTX_TRY(otx_pulse(run));
+        error = otx_mark_seal(e->temporary);
         if (error != 0)
             return fail_errno(
                 run, e->path, "the file cannot be written", error);
-    }
-    for (const entry *e = set->first; e && set->durable; e = e->next)
-        if (e->finished)
+        if (set->durable)
             OTX_TRY(sync_entry(run, e));
+        e->sealed = true;
+    }
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_atomic_file_publish(otx_run *run, otx_atomic_file_set *set)
+{
+    OTX_TRY(otx_atomic_file_seal(run, set));
     return rename_all(run, set);
 }
 

@@ -34,11 +34,16 @@ otx_status otx_atomic_file_add(
     const char **temporary);
 
 /* Renames all to their final names, in the order they were added. `durable`
- * waits until the disk has the bytes. When a rename fails, the others are taken
- * back: what was there before is there again. Of a shared set: says that what
- * was added is finished. */
+ * waits until the disk has the bytes. Who is killed in between leaves a journal
+ * by which the next one completes the set. When a rename fails, the others are
+ * taken back: what was there before is there again. Of a shared set: says that
+ * what was added is finished. */
 otx_status
 otx_atomic_file_commit(otx_run *run, otx_atomic_file_set *set, bool durable);
+
+/* Seals the finished files of a shared set and, where one of them is durable,
+ * waits until the disk has them: what takes time of publishing. */
+otx_status otx_atomic_file_seal(otx_run *run, otx_atomic_file_set *set);
 
 /* Renames the finished files of a shared set and removes the others, as
  * `commit` does of a set of its own. */

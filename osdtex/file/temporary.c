@@ -2,6 +2,7 @@
 #include "file/temporary.h"
 
 #include "base/hash.h"
+#include "file/journal.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -98,10 +99,9 @@ otx_temporary_create(
     return error;
 }
 
-/* Whether a name ends in ".tmp-MACHINE-PROCESS-NUMBER" of a process that is no
- * more. */
-static bool
-is_left_over(const char *name, const char *machine)
+/* The process in a name that ends in ".tmp-MACHINE-PROCESS-NUMBER"; 0 none. */
+static long
+process_of(const char *name, const char *machine)
 {
     const char *found = NULL;
     char *end;
@@ -111,32 +111,110 @@ is_left_over(const char *name, const char *machine)
          at = strstr(at + 1, machine))
         found = at;
     if (!found)
-        return false;
+        return 0;
     process = strtol(found + strlen(machine), &end, 10);
-    if (process <= 1 || *end != '-' || end[1] == '\0' ||
-        end[1 + strspn(end + 1, "0123456789")] != '\0')
-        return false;
-    return kill((pid_t)process, 0) != 0 && errno == ESRCH;
+    return process > 1 && *end == '-' && end[1] != '\0' &&
+                   end[1 + strspn(end + 1, "0123456789")] == '\0'
+               ? process
+               : 0;
+}
+
+static bool
+is_gone(long process)
+{
+    return process > 0 && kill((pid_t)process, 0) != 0 && errno == ESRCH;
+}
+
+static bool
+is_own(long process)
+{
+    return process == (long)getpid();
+}
+
+typedef bool (*process_test)(long process);
+
+/* Temporaries of a process, as journals ask for them. */
+typedef struct owner
+{
+    const char *machine;
+    long process;
+} owner;
+
+static bool
+is_of(const void *of, const char *name)
+{
+    const owner *o = of;
+
+    return process_of(name, o->machine) == o->process;
+}
+
+static void
+complete(int folder, const char *name, const char *machine)
+{
+    const owner o = {machine, process_of(name, machine)};
+
+    if (strncmp(name, OTX_JOURNAL_NAME, strlen(OTX_JOURNAL_NAME)) == 0)
+        otx_journal_complete(folder, name, is_of, &o);
+}
+
+static void
+drop(int folder, const char *name, const char *machine)
+{
+    struct stat info;
+
+    (void)machine;
+    if (fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) == 0 &&
+        S_ISREG(info.st_mode))
+        unlinkat(folder, name, 0);
+}
+
+/* Does something to each temporary in a folder whose process is due. */
+static void
+visit(
+    DIR *folder, process_test is_due,
+    void (*act)(int folder, const char *name, const char *machine))
+{
+    char machine[LEAD_BYTES];
+    const struct dirent *entry;
+
+    machine_lead(machine);
+    rewinddir(folder);
+    while ((entry = readdir(folder)) != NULL)
+        if (is_due(process_of(entry->d_name, machine)))
+            act(dirfd(folder), entry->d_name, machine);
+}
+
+/* The folder of a path; NULL when it cannot be read. */
+static DIR *
+open_folder(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *name = slash ? strndup(path, (size_t)(slash - path) + 1) : NULL;
+    DIR *folder = slash && !name ? NULL : opendir(name ? name : ".");
+
+    free(name);
+    return folder;
 }
 
 void
 otx_temporary_sweep(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    char machine[LEAD_BYTES];
-    const struct dirent *entry;
-    char *name = slash ? strndup(path, (size_t)(slash - path) + 1) : NULL;
-    DIR *folder = opendir(name ? name : ".");
-    struct stat info;
+    DIR *folder = open_folder(path);
 
-    free(name);
-    machine_lead(machine);
-    while (folder && (entry = readdir(folder)) != NULL)
-        if (is_left_over(entry->d_name, machine) &&
-            fstatat(dirfd(folder), entry->d_name, &info, AT_SYMLINK_NOFOLLOW) ==
-                0 &&
-            S_ISREG(info.st_mode))
-            unlinkat(dirfd(folder), entry->d_name, 0);
-    if (folder)
-        closedir(folder);
+    if (!folder)
+        return;
+    visit(folder, is_gone, complete);
+    visit(folder, is_gone, drop);
+    closedir(folder);
+}
+
+void
+otx_temporary_sweep_own(const char *path)
+{
+    DIR *folder = open_folder(path);
+
+    if (!folder)
+        return;
+    visit(folder, is_own, drop);
+    closedir(folder);
 }

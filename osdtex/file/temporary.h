@@ -16,7 +16,11 @@ int otx_temporary_create(
     otx_arena *arena, const char *path, const char *of, const char **out);
 
 /* Removes temporaries from the folder of `path` whose processes ran on this
- * machine and are no more. */
+ * machine and are no more. Sets of files that they were giving names to are
+ * completed first (file/journal.h). */
 void otx_temporary_sweep(const char *path);
+
+/* Removes those of this process, which is about to end. */
+void otx_temporary_sweep_own(const char *path);
 
 #endif

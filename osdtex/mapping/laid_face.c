@@ -18,8 +18,7 @@ otx_laid_face_area(const otx_vec2 *points, int32_t count)
 /* Unit vectors of the face's plane, e1 x e2 along the sum of its fan's cross
  * products. False when the face has no area. */
 static bool
-face_plane(
-    const otx_surface *surface, int32_t face, otx_vec3 *e1, otx_vec3 *e2)
+face_plane(const otx_surface *surface, int32_t face, otx_vec3 *e1, otx_vec3 *e2)
 {
     const otx_level *leaf = otx_surface_leaf(surface);
     const float *points = surface->points;

@@ -27,7 +27,7 @@ typedef struct survey
     otx_series l2, ratio, log_area;
     otx_coverage uses[OTX_EXEMPLARS_MAX];
     otx_laid_face face; /* the one at hand */
-    int32_t source; /* the exemplar that it shows */
+    int32_t source;     /* the exemplar that it shows */
 } survey;
 
 /* Sums of products of two centred point sets: xx xy yx yy. */
@@ -92,7 +92,8 @@ use_face(survey *s, const otx_laid_face *face)
             otx_vec2_scale(s->texels_per_unit, face->q[k]),
             otx_vec2_scale(s->texels_per_unit, face->q[k + 1])};
 
-        otx_coverage_add(&s->uses[s->source], q, fabs(otx_laid_face_area(p, 3)));
+        otx_coverage_add(
+            &s->uses[s->source], q, fabs(otx_laid_face_area(p, 3)));
     }
 }
 

@@ -272,6 +272,29 @@ class Update(ProgramTest):
             "render", CAGE, "-o", picture, "--size", "8x8", "-q"), 0)
         self.assertTrue(picture.read_bytes().startswith(b"\x89PNG"))
 
+    def test_files_beside_a_bake_that_it_does_not_write(self):
+        """Textures of others count where the bake has one of their name."""
+        words = ("bake", CAGE, EXEMPLAR, *QUICK, "--resolution", "64", "-o",
+                 self.folder / "a.obj", "-n")
+
+        def code(name, *more):
+            path = self.folder / name
+            path.write_text("by hand")
+            result = self.run_program(*words, *more)
+            path.unlink()
+            return result.returncode
+
+        self.assertEqual(code("a_uv.1001.png"), 0)
+        self.assertEqual(code("a_uv.1001.exr"), 0)
+        self.assertEqual(code("a_uv.1001.exr", "--extra", "uv"), 1)
+        self.assertEqual(code("a_uv.1001.exr", "--extra", "seam"), 0)
+        self.assertEqual(code("a.1001.exr"), 1)
+        self.assertEqual(code("a.1002.exr", "--udim", "1001"), 0)
+        self.assertEqual(code("a.1001.png"), 0)
+        self.assertEqual(code("a.1001.png", "--preview-png"), 1)
+        self.assertEqual(code("a.1001.png", "--for", "web"), 1)
+        self.assertEqual(code("a.1001.exr", "--for", "web"), 0)
+
 
 if __name__ == "__main__":
     main()
