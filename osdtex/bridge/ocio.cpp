@@ -328,6 +328,80 @@ place_of(const OCIO::ConstContextRcPtr &context, const std::string &table)
         "", [&] { return context->resolveFileLocation(table.c_str()); });
 }
 
+/* What an attribute says, with the five characters that XML escapes. */
+std::string
+unescape(std::string text)
+{
+    static const char *const escapes[][2] = {
+        {"&lt;", "<"},
+        {"&gt;", ">"},
+        {"&quot;", "\""},
+        {"&apos;", "'"},
+        {"&amp;", "&"}};
+
+    for (const auto &escape : escapes)
+        for (size_t at = 0;
+             (at = text.find(escape[0], at)) != std::string::npos; ++at)
+            text.replace(at, std::strlen(escape[0]), escape[1]);
+    return text;
+}
+
+/* The attribute of an element, or "". */
+std::string
+attribute(const std::string &element, const std::string &name)
+{
+    for (const char quote : {'"', '\''})
+    {
+        const std::string opening = " " + name + "=" + quote;
+        const size_t at = element.find(opening);
+
+        if (at == std::string::npos)
+            continue;
+        const size_t begin = at + opening.size();
+        return unescape(
+            element.substr(begin, element.find(quote, begin) - begin));
+    }
+    return "";
+}
+
+/* Adds the tables that a table refers to: a CTF may be made of others. */
+void
+collect_references(const std::string &place, std::vector<std::string> &tables)
+{
+    const std::string text =
+        answered<std::string>("", [&] { return read_text(place.c_str()); });
+    size_t at = text.find("<ProcessList");
+
+    while (at != std::string::npos &&
+           (at = text.find("<Reference", at)) != std::string::npos)
+    {
+        const size_t end = text.find('>', at);
+        const std::string path = attribute(text.substr(at, end - at), "path");
+
+        if (!path.empty())
+            tables.push_back(path);
+        at = end;
+    }
+}
+
+/* All tables by name, with what they refer to behind them. */
+std::vector<std::string>
+all_tables(const OCIO::Config &config, const OCIO::ConstContextRcPtr &context)
+{
+    const std::set<std::string> named = tables_of(config);
+    std::vector<std::string> tables(named.begin(), named.end());
+    std::set<std::string> places;
+
+    for (size_t i = 0; i < tables.size(); ++i)
+    {
+        const std::string place = place_of(context, tables[i]);
+
+        if (!place.empty() && places.insert(place).second)
+            collect_references(place, tables);
+    }
+    return tables;
+}
+
 void
 visit_needs(const OCIO::Config &config, visitor visit, void *user)
 {
@@ -343,7 +417,7 @@ visit_needs(const OCIO::Config &config, visitor visit, void *user)
             context->resolveStringVar(("${" + name + "}").c_str());
         visit(user, OTX_OCIO_NEED_VARIABLE, (name + "=" + value).c_str());
     }
-    for (const std::string &table : tables_of(config))
+    for (const std::string &table : all_tables(config, context))
     {
         const std::string place = place_of(context, table);
         visit(user, OTX_OCIO_NEED_NAME, table.c_str());

@@ -72,6 +72,8 @@ otx_guard_inputs(
     otx_path_list_add(out, values->job);
     if (status == OSDTEX_OK && otx_flag_is_taken(values, OTX_FLAG_COLORCONFIG))
         status = osdtex_colour_references(context, add, out);
+    else
+        otx_path_list_add(out, getenv("OCIO"));
     return status;
 }
 

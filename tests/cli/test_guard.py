@@ -121,6 +121,13 @@ class Guard(ProgramTest):
             *QUICK, "-o", "n.obj", "--colorconfig", "context.ocio",
             "--json-report", "luts/sh020.spi1d", environment={"SHOT": "sh020"})
 
+    def test_a_configuration_that_a_command_does_not_read(self):
+        self.cage()
+        self.put("studio.csv", "ocio_profile_version: 2\n")
+        self.assert_refused(
+            "'studio.csv' is an input", "field", "shirt.obj", "-o",
+            "studio.csv", "--replace", environment={"OCIO": "studio.csv"})
+
     def test_every_command(self):
         self.cage("m.obj", "mtllib m.mtl\n")
         self.put("m.mtl", "newmtl a\nmap_Kd m.exr\n")

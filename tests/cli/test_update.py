@@ -36,6 +36,36 @@ APART = {"output", "preview", "json-report", "save", "threads", "memory-limit",
          "help", "version", "udim"}
 
 
+# Whose space "graded" goes through a table that refers to another one.
+CONFIGURATION = """ocio_profile_version: 2
+search_path: luts
+roles: {scene_linear: lin, default: raw, color_picking: tx, data: raw}
+displays:
+  sRGB:
+    - !<View> {name: Film, colorspace: tx}
+colorspaces:
+  - !<ColorSpace> {name: lin}
+  - !<ColorSpace>
+    name: tx
+    to_reference: !<ExponentTransform> {value: [2.2, 2.2, 2.2, 1]}
+  - !<ColorSpace>
+    name: graded
+    to_reference: !<FileTransform> {src: outer.ctf}
+  - !<ColorSpace> {name: raw, isdata: true}
+"""
+
+TABLE = """Version 1
+From 0.0 1.0
+Length 3
+Components 1
+{{
+0.0
+{0}
+1.0
+}}
+"""
+
+
 class Update(ProgramTest):
     def map_u(self, *more, command="map", cage=CAGE, exemplar=EXEMPLAR,
               name="a.obj", **keywords):
@@ -216,6 +246,34 @@ class Update(ProgramTest):
         lut.write_bytes((self.folder / "luts" / "sh020.spi1d").read_bytes())
         self.assertTrue(again("sh010"))
         self.assertFalse(again("sh010"))
+
+    def test_what_a_table_refers_to(self):
+        """A CTF may be made of other tables."""
+        luts = self.folder / "luts"
+        luts.mkdir()
+        (self.folder / "c.ocio").write_text(CONFIGURATION)
+        (luts / "outer.ctf").write_text(
+            '<?xml version="1.0" encoding="UTF-8"?>\n'
+            '<ProcessList id="1" version="1.3">\n'
+            '<Reference path="inner.spi1d" inBitDepth="32f"'
+            ' outBitDepth="32f"/>\n</ProcessList>\n')
+        (luts / "inner.spi1d").write_text(TABLE.format(0.5))
+        more = ("--colorconfig", self.folder / "c.ocio", "--from", "graded")
+        self.assertTrue(self.map_u(*more))
+        self.assertFalse(self.map_u(*more))
+        (luts / "inner.spi1d").write_text(TABLE.format(0.25))
+        self.assertTrue(self.map_u(*more))
+        self.assertFalse(self.map_u(*more))
+        self.assert_error(self.run_program(
+            "map", CAGE, EXEMPLAR, *QUICK, *more, "-o",
+            self.folder / "b.obj", "--json-report", luts / "inner.spi1d"), 1,
+            "is an input")
+
+    def test_a_configuration_that_a_name_stands_for(self):
+        more = ("--colorconfig", "ocio://default")
+        self.assertTrue(self.map_u(*more))
+        self.assertFalse(self.map_u(*more))
+        self.assertTrue(self.map_u())
 
     # ---- other jobs -------------------------------------------------------
 

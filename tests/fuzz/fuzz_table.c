@@ -20,7 +20,8 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         fuzz_check(strlen(error) > 3 && strlen(error) < sizeof error);
         return 0;
     }
-    fuzz_check(json_is_object(suite.cases));
+    fuzz_check(
+        json_is_object(suite.cases) && json_object_size(suite.cases) > 0);
     json_object_foreach(suite.cases, name, item)
     {
         fuzz_check(*name && !strchr(name, '/'));
