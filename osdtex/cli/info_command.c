@@ -1,8 +1,8 @@
 /* info_command.c -- osdtex info: what a file is, as osdtex sees it. */
 #include "cli/inputs.h"
 #include "cli/session.h"
-#include "cli/stop.h"
 #include "cli/spool.h"
+#include "cli/stop.h"
 #include "cli/value.h"
 
 #include <jansson.h>

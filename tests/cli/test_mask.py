@@ -335,13 +335,14 @@ class Refused(MaskTest):
             1, "would be replaced", "--also", f"{MATERIAL}={other}")
 
     def test_a_bake_does_not_replace_its_masks(self):
-        for name in "out.1001.png", "out.<UDIM>.png", "out_uv.1001.png":
+        for name in "out.1001.png", "out.<UDIM>.png":
             mask = self.folder / name.replace("<UDIM>", "1001")
             write_png(mask, 4, 4, lambda x, y: (255, 0, 0))
             before = mask.read_bytes()
             result = self.run_program(
                 "bake", PLANE, FIRST, "-o", self.folder / "out.obj", *QUICK,
-                "--also", GRASS, "--mask", self.folder / name)
+                "--also", GRASS, "--mask", self.folder / name,
+                "--preview-png")
             self.assert_error(result, 1, "is an input")
             self.assertEqual(mask.read_bytes(), before)
             mask.unlink()
