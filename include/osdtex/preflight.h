@@ -55,6 +55,7 @@ typedef struct osdtex_forecast
                           * job bakes nothing */
     double uv_overlap;   /* share of the texture that faces claim together, of
                           * own UVs that were looked at; else 0 */
+    const char *method;  /* as resolved, also from "auto"; static */
 } osdtex_forecast;
 
 /* Looks a job over without doing it: refuses what would be refused later and
@@ -67,7 +68,7 @@ typedef struct osdtex_forecast
  *
  *   out  NULL: only the findings matter
  *
- * ARGUMENT, FORMAT and IO (of a file of constraints), TOPOLOGY, LIMIT,
+ * ARGUMENT, FORMAT and IO (of constraints and masks), TOPOLOGY, LIMIT,
  * MEMORY, CANCELLED. */
 OSDTEX_API osdtex_status osdtex_preflight(
     osdtex_context *context, const osdtex_cage *cage,

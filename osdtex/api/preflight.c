@@ -1,9 +1,8 @@
 /* preflight.c -- what can be known of a job before it runs. */
 #include "api/call.h"
 #include "api/handle.h"
-#include "api/map_input.h"
 #include "api/map_resolve.h"
-#include "api/method_settings.h"
+#include "api/rehearsal.h"
 #include "bake/atlas.h"
 #include "bake/uv_choice.h"
 #include "image/udim.h"
@@ -56,25 +55,6 @@ take_options(look *l, const osdtex_job *theirs)
 }
 
 /* ---- mapping ------------------------------------------------------------- */
-
-/* The method and its settings. What the method "auto" comes to depends on the
- * surface. */
-static otx_status
-check_method(look *l)
-{
-    const bool is_auto = l->map.method && strcmp(l->map.method, "auto") == 0;
-    const otx_constraint_set *constraints;
-    const otx_method *method;
-    const void *settings;
-
-    OTX_TRY(otx_map_input_options(l->run, &l->map, &constraints));
-    if (is_auto)
-        return OSDTEX_OK;
-    OTX_TRY(otx_resolve_method(l->run, l->map.method, &method));
-    return otx_method_settings_read(
-        l->run, method, l->map.settings, l->map.setting_count,
-        &l->exemplar->exemplar, &l->cage->cage, &settings);
-}
 
 static double
 predict_bytes(const otx_cage *cage, int32_t level)
@@ -135,9 +115,11 @@ check_mapping(look *l)
     if (e->tile_size == 0)
         l->forecast.scale *= (double)e->source_width / e->width;
     l->forecast.density = e->width / l->request.scale;
-    OTX_TRY(check_method(l));
     OTX_TRY(check_level(l));
     OTX_TRY(otx_surface_draft(l->run, cage, l->forecast.level, &l->draft));
+    OTX_TRY(otx_rehearse_map(
+        l->run, l->cage, &l->draft, l->exemplar, &l->map, &l->request,
+        &l->forecast.method));
     missing = cage->scheme == OTX_SCHEME_NONE
                   ? 0
                   : l->forecast.level - (l->draft.level_count - 1);

@@ -251,19 +251,31 @@ find_charts(otx_run *run, otx_layout *out)
 /* ---- tiles ----------------------------------------------------------------
  */
 
+/* How far a leaf face may reach beyond the tiles that there are, where it is
+ * cut off: about a texel. Whether the UVs can be baked onto was decided on a
+ * draft, between whose corners a curved border bulges by less. */
+static const double BULGE = 1e-3;
+
 /* The tiles that a face reaches into, as ranges of columns and rows. */
 typedef struct span
 {
     int32_t column, column_end, row, row_end;
 } span;
 
+static int32_t
+clamp(double x, int32_t low, int32_t high)
+{
+    return (int32_t)fmin(fmax(x, low), high);
+}
+
+/*   count  of columns or rows that there are */
 static void
-span_along(double low, double high, int32_t *first, int32_t *end)
+span_along(double low, double high, int32_t count, int32_t *first, int32_t *end)
 {
     const double over = fmin(OTX_UDIM_OVER, 0.25 * (high - low));
 
-    *first = (int32_t)floor(low + over);
-    *end = (int32_t)floor(high - over) + 1;
+    *first = clamp(floor(low + over), 0, count - 1);
+    *end = clamp(floor(high - over) + 1.0, *first + 1, count);
 }
 
 static bool
@@ -281,12 +293,13 @@ span_of(const otx_layout *layout, int32_t face, span *out)
             low[i] = fmin(low[i], x);
             high[i] = fmax(high[i], x);
         }
-    if (!(low[0] > -OTX_UDIM_OVER && low[1] > -OTX_UDIM_OVER &&
-          high[0] < OTX_UDIM_COLUMNS + OTX_UDIM_OVER &&
-          high[1] < OTX_UDIM_ROWS + OTX_UDIM_OVER))
+    if (!(low[0] > -BULGE && low[1] > -BULGE &&
+          high[0] < OTX_UDIM_COLUMNS + BULGE &&
+          high[1] < OTX_UDIM_ROWS + BULGE))
         return false;
-    span_along(low[0], high[0], &out->column, &out->column_end);
-    span_along(low[1], high[1], &out->row, &out->row_end);
+    span_along(
+        low[0], high[0], OTX_UDIM_COLUMNS, &out->column, &out->column_end);
+    span_along(low[1], high[1], OTX_UDIM_ROWS, &out->row, &out->row_end);
     /* The last place of the last row would be 10000. */
     return out->row_end < OTX_UDIM_ROWS || out->column_end < OTX_UDIM_COLUMNS;
 }

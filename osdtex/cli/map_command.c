@@ -195,16 +195,14 @@ say_plan(const job *j)
     const osdtex_exemplar_info *e = osdtex_exemplar_describe(j->exemplar);
     const double kept =
         e->tile_size == 0 ? (double)e->width / e->source_width : 1.0;
-    osdtex_method_info method = {0};
 
-    osdtex_method_get(0, &method);
     printf(
         "would texture %s: %.0f faces at level %d, about %.3g GiB of memory\n"
         "with          %s: %d x %d, %g scene units wide\n"
         "by            %s\n",
         r->values->operands[0], f->face_count, f->level, f->bytes / 0x1p30,
         r->values->operands[1], e->width, e->height, kept * f->scale,
-        r->map_options.method ? r->map_options.method : method.name);
+        f->method);
     for (int k = 0; k < r->also.count; ++k)
         printf(
             "and           %s%s%s%s\n", r->also.files[k],

@@ -200,6 +200,42 @@ class Preflight(ProgramTest):
             self.look("map", JACK, "--constraints", "nowhere.json"), 3,
             "nowhere.json")
 
+    def test_masks_and_other_exemplars_are_looked_at(self):
+        """As the run would: with its sentence, and its exit code."""
+        also = ("--also", EXEMPLARS / "pebbles_tile.png")
+        text = self.folder / "mask.png"
+        text.write_text("no picture")
+        cage = grid(self.folder / "two.obj", 8, lambda u, v: (2 * u, v))
+        for words, code, more in (
+                ("nothing says where exemplar 2 goes", 1, also),
+                ("--also", 1, ("--mask", GRAVEL)),
+                ("nowhere.png", 3, (*also, "--mask", "nowhere.png")),
+                ("mask.png", 2, (*also, "--mask", text)),
+                ("UDIM tile 1001", 3,
+                 (*also, "--mask", self.folder / "m.<UDIM>.png")),
+                ("chrome", 1, ("--also", f"chrome={GRAVEL}"))):
+            with self.subTest(words):
+                for dry in ("-n",), ():
+                    result = self.run_program(
+                        "map", cage, GRAVEL, "--level", "0", *dry, "-o",
+                        self.folder / "out.obj", *more)
+                    self.assert_error(result, code, words)
+                    self.assertEqual(
+                        result.stderr.count("error: "), 1, result.stderr)
+
+    def test_the_method_that_a_job_comes_to(self):
+        for exemplar, method in (
+                (GRAVEL, "hierarchical"),
+                (EXEMPLARS / "bricks_tile.png", "material")):
+            result = self.run_program(
+                "map", JACK, exemplar, "-n", "-o", self.folder / "out.obj",
+                "--method", "auto", "--scale", "1")
+            self.assert_exit(result, 0)
+            self.assertIn(f"by            {method}", result.stdout)
+        self.assert_error(
+            self.look("map", JACK, "--method", "auto", "--set", "overlp=1"),
+            1, "overlp")
+
 
 if __name__ == "__main__":
     main()

@@ -77,9 +77,10 @@ the_rule_is_opensubdivs(void **state)
     }
 }
 
-/* A sheet with own UVs: its plane, moved by (u, v). */
+/* A sheet with own UVs: its plane, moved by (u, v), of whose refined corners
+ * the first lies farther to the left by `bulge`. */
 static otx_status
-lay_out_own(otx_run *run, float u, float v, otx_layout *out)
+lay_out_bulge(otx_run *run, float u, float v, float bulge, otx_layout *out)
 {
     otx_cage_options options = otx_cage_options_default();
     otx_cage *cage = OTX_NEW(run->arena, otx_cage, 1);
@@ -99,7 +100,30 @@ lay_out_own(otx_run *run, float u, float v, otx_layout *out)
     options.scheme = OTX_SCHEME_BILINEAR;
     *cage = mesh_build(run, &in, &options);
     *surface = mesh_refine(run, cage, 1);
+    ((float *)(uintptr_t)surface->uvs)[2 * surface->face_uvs[0]] -= bulge;
     return otx_layout_build(run, flat_mapping(run, surface, 2.0), &how, out);
+}
+
+static otx_status
+lay_out_own(otx_run *run, float u, float v, otx_layout *out)
+{
+    return lay_out_bulge(run, u, v, 0.0f, out);
+}
+
+/* What a draft of the cage does not show is no reason to refuse the bake. */
+static void
+a_border_may_bulge_by_a_texel(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_layout layout;
+
+    (void)state;
+    assert_int_equal(lay_out_bulge(run, 0.0f, 0.0f, 9e-4f, &layout), OSDTEX_OK);
+    assert_int_equal(layout.tile_count, 1);
+    assert_int_equal(layout.tiles[0], 1001);
+    assert_int_equal(
+        lay_out_bulge(run, 0.0f, 0.0f, 2e-3f, &layout), OSDTEX_ERROR_TOPOLOGY);
+    test_run_destroy(run);
 }
 
 static void
@@ -159,6 +183,7 @@ main(void)
         cmocka_unit_test(a_density_opens_tiles),
         cmocka_unit_test(the_rule_is_opensubdivs),
         cmocka_unit_test(own_uvs_are_on_their_tiles),
+        cmocka_unit_test(a_border_may_bulge_by_a_texel),
         cmocka_unit_test(charts_are_what_hangs_together),
     };
 
