@@ -218,7 +218,8 @@ cage_comes_first(const otx_map_request *r)
     return false;
 }
 
-/* Textures of a bake have numbers in their names; nothing else may. */
+/* Textures of a bake have numbers in their names; nothing else may. Which maps
+ * there will be is not known yet. */
 static bool
 pictures_are_apart(const otx_map_request *r)
 {
@@ -227,8 +228,7 @@ pictures_are_apart(const otx_map_request *r)
 
     for (int i = 0; r->bakes && i < 3; ++i)
         if (otx_bake_outputs_may_be(
-                r->cage_obj, &r->bake_options,
-                otx_material_flags_kinds(&r->material), texture_extension(r),
+                r->cage_obj, &r->bake_options, UINT32_MAX, texture_extension(r),
                 others[i]))
         {
             otx_session_refuse(
