@@ -80,6 +80,8 @@ typedef struct choice
     json_t *tiles; /* NULL none */
     json_t *also;  /* list of [MATERIAL=]FILE, NULL none */
     const char *mask;
+    const char *again; /* flags of a bake from the saved mapping, NULL none */
+    const char *swap;  /* with another picture, NULL the same */
 } choice;
 
 /* The same for "[MATERIAL=]FILE". */
@@ -114,6 +116,16 @@ add_several(const otx_suite *suite, const choice *c, json_t *item)
         json_object_set_new(item, "mask", seen_from_here(suite, c->mask));
 }
 
+/* What is done with the mapping once it is saved. */
+static void
+add_again(const otx_suite *suite, const choice *c, json_t *item)
+{
+    if (c->again)
+        json_object_set_new(item, "again", json_string(c->again));
+    if (c->swap)
+        json_object_set_new(item, "swap", seen_from_here(suite, c->swap));
+}
+
 static bool
 add_case(otx_suite *suite, const choice *c, char *error)
 {
@@ -137,6 +149,7 @@ add_case(otx_suite *suite, const choice *c, char *error)
     if (c->tiles)
         json_object_set(item, "tiles", c->tiles);
     add_several(suite, c, item);
+    add_again(suite, c, item);
     if (json_object_set_new(suite->cases, name, item) == 0)
         return true;
     return refuse(error, "memory ran out");
@@ -195,10 +208,10 @@ add_options(otx_suite *suite, json_t *row, choice c, char *error)
 static bool
 check_row(const json_t *row, size_t index, char *error)
 {
-    static const char *const texts[] = {"tiles", "mask"};
+    static const char *const texts[] = {"tiles", "mask", "again", "swap"};
     const json_t *options = json_object_get(row, "options");
 
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < 4; ++i)
     {
         const json_t *value = json_object_get(row, texts[i]);
 
@@ -267,6 +280,8 @@ add_row(otx_suite *suite, json_t *row, size_t index, char *error)
                     .tiles = json_object_get(row, "tiles"),
                     .also = also,
                     .mask = json_string_value(json_object_get(row, "mask")),
+                    .again = json_string_value(json_object_get(row, "again")),
+                    .swap = json_string_value(json_object_get(row, "swap")),
                 };
 
                 if (!add_options(suite, row, c, error))

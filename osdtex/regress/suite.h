@@ -15,7 +15,9 @@
  * A row stands for the product of its lists; paths are relative to DIR. A case
  * is called CAGE.EXEMPLAR.METHOD, and .OPTION where its options have a name.
  * "tiles": "..." in a row makes tiles of the exemplar first, with these
- * options. */
+ * options. An exemplar that is a folder is a material. "again": "..." bakes
+ * once more, with these options, from the mapping as it was saved; "swap":
+ * another picture in the place of the exemplar then. */
 #ifndef OTX_REGRESS_SUITE_H
 #define OTX_REGRESS_SUITE_H
 
@@ -32,7 +34,8 @@ typedef struct otx_suite
 {
     const char *folder; /* as given */
     json_t *table;      /* as in the file */
-    json_t *cases;      /* name -> {cage, exemplar, method, options, tiles?} */
+    json_t *cases;      /* name -> {cage, exemplar, method, options, tiles?,
+                         * also?, mask?, again?, swap?} */
 } otx_suite;
 
 /* False after saying in `error` what is wrong with the table. */

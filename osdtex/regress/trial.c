@@ -244,6 +244,50 @@ add_several(const trial *t, otx_process_words *words)
     }
 }
 
+/* A set of maps. */
+static bool
+is_folder(const char *path)
+{
+    struct stat info;
+
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+static void
+add_save(const trial *t, otx_process_words *words)
+{
+    char path[OTX_SUITE_PATH_BYTES];
+
+    if (!otx_suite_text(t->item, "again"))
+        return;
+    path_in(t, "model.osdtex", path);
+    otx_process_add(words, "--save");
+    otx_process_add(words, path);
+}
+
+/* Bakes from the saved mapping, where that is asked for. */
+static bool
+bake_again(trial *t)
+{
+    const char *how = otx_suite_text(t->item, "again");
+    const char *swap = otx_suite_text(t->item, "swap");
+    char path[OTX_SUITE_PATH_BYTES];
+    otx_process_words words;
+    double cpu;
+
+    if (!how)
+        return true;
+    words = begin(t, "bake", otx_suite_text(t->item, "cage"));
+    if (swap)
+        otx_process_add(&words, swap);
+    path_in(t, "model.osdtex", path);
+    otx_process_add(&words, "--from");
+    otx_process_add(&words, path);
+    add_output(t, &words, "model_again.obj");
+    otx_process_add_text(&words, how);
+    return run_words(t, &words, &cpu);
+}
+
 static bool
 map(trial *t)
 {
@@ -259,7 +303,10 @@ map(trial *t)
         exemplar = tiles;
     }
     words = begin(t, "map", otx_suite_text(t->item, "cage"));
+    if (is_folder(exemplar))
+        otx_process_add(&words, "--material");
     otx_process_add(&words, exemplar);
+    add_save(t, &words);
     add_output(t, &words, "model.obj");
     otx_process_add(&words, "--method");
     otx_process_add(&words, otx_suite_text(t->item, "method"));
@@ -369,7 +416,7 @@ otx_trial_run(
                     "%s cannot be made, is a link, or holds files that osdtex "
                     "regress did not put there",
                     t.folder));
-    else if (map(&t) && render(&t))
+    else if (map(&t) && bake_again(&t) && render(&t))
     {
         hash_files(&t);
         take_metrics(&t, calibration);
