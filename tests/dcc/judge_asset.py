@@ -30,6 +30,42 @@ def judge_conformance(stage):
         assert stage.HasAuthoredMetadata(key), key
 
 
+def judge_maps(folder, shade, material):
+    """Each map that was baked is connected, found, and taken as numbers."""
+    surface = material.ComputeSurfaceSource()[0]
+    inputs = {
+        "normal": "normal", "roughness": "roughness", "metalness": "metallic",
+        "height": "displacement", "occlusion": "occlusion"}
+    for name, key in inputs.items():
+        baked = sorted(folder.glob(f"shape_{name}.*.exr"))
+        source = surface.GetInput(key)
+        assert bool(baked) == bool(source and source.HasConnectedSource()), name
+        if not baked:
+            continue
+        texture = shade.Shader(source.GetConnectedSource()[0])
+        path = texture.GetInput("file").Get().path
+        assert list(folder.glob(path.replace("<UDIM>", "*"))) == baked, path
+        assert texture.GetInput("sourceColorSpace").Get() == "raw"
+        if name == "normal":
+            assert tuple(texture.GetInput("scale").Get()) == (2, 2, 2, 1)
+            assert tuple(texture.GetInput("bias").Get()) == (-1, -1, -1, 0)
+    assert bool(list(folder.glob("shape_height.*.exr"))) == bool(
+        material.ComputeDisplacementSource()[0])
+
+
+def judge_subsets(geom, shade, mesh):
+    """Materials of the cage cover it, each face once, and show the look."""
+    subsets = [
+        geom.Subset(p) for p in mesh.GetPrim().GetChildren()
+        if geom.Subset(p).GetFamilyNameAttr().Get() == "materialBind"]
+    faces = [f for s in subsets for f in s.GetIndicesAttr().Get()]
+    count = len(mesh.GetFaceVertexCountsAttr().Get())
+    assert sorted(faces) == (list(range(count)) if subsets else [])
+    for subset in subsets:
+        bound, _ = shade.MaterialBindingAPI(subset.GetPrim()).ComputeBoundMaterial()
+        assert bound.ComputeSurfaceSource()[0], subset
+
+
 def judge_usd(folder):
     from pxr import Usd, UsdGeom, UsdShade
 
@@ -50,8 +86,30 @@ def judge_usd(folder):
     assert len(st.ComputeFlattened()) == sum(len(f.split()) - 1 for f in faces)
     material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
     assert material.ComputeSurfaceSource()[0]
+    judge_maps(folder, UsdShade, material)
+    judge_subsets(UsdGeom, UsdShade, mesh)
     judge_conformance(stage)
     print("USD reads shape.usda")
+
+
+def judge_code(mx, document):
+    """Renderers' code comes of it: OSL, GLSL and MDL."""
+    import MaterialX.PyMaterialXGenGlsl as glsl
+    import MaterialX.PyMaterialXGenMdl as mdl
+    import MaterialX.PyMaterialXGenOsl as osl
+    import MaterialX.PyMaterialXGenShader as shader
+
+    elements = shader.findRenderableElements(document)
+    assert elements
+    for generator in (
+            osl.OslShaderGenerator, glsl.GlslShaderGenerator,
+            mdl.MdlShaderGenerator):
+        made = generator.create()
+        context = shader.GenContext(made)
+        context.registerSourceCodeSearchPath(mx.getDefaultDataSearchPath())
+        for element in elements:
+            code = made.generate("shape", element, context)
+            assert len(code.getSourceCode(shader.PIXEL_STAGE)) > 1000
 
 
 def judge_materialx(folder):
@@ -67,6 +125,7 @@ def judge_materialx(folder):
     document.importLibrary(library)
     valid, message = document.validate()
     assert valid, message
+    judge_code(mx, document)
     print("MaterialX reads shape.mtlx")
 
 

@@ -77,13 +77,31 @@ def check_asset(folder):
         print(run(python, judge, module, folder).strip())
 
 
+def bake_material(osdtex, folder):
+    """All maps of a set, on a cage of several materials."""
+    run(
+        osdtex, "bake", ROOT / "models/cages/materials_and_groups.obj",
+        "--material", ROOT / "models/materials/waves", "-o",
+        folder / "shape.obj", "--level", "1", "--uvs", "atlas", "--resolution",
+        "128", "-q", cwd=ROOT,
+    )
+    names = {p.name.split(".")[0] for p in folder.glob("*.exr")}
+    assert names == {"shape"} | {
+        f"shape_{m}" for m in (
+            "normal", "roughness", "height", "metalness", "occlusion")}, names
+
+
 def main():
     need("oiiotool", "exrheader")
+    osdtex = Path(sys.argv[1]).resolve()
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
-        bake(Path(sys.argv[1]).resolve(), folder)
+        bake(osdtex, folder)
         check_texts(folder, check_textures(folder))
         check_asset(folder)
+    with tempfile.TemporaryDirectory() as folder:
+        bake_material(osdtex, Path(folder))
+        check_asset(Path(folder))
 
 
 main()

@@ -9,8 +9,10 @@ or, in a script of your own:
 
 Blender's OBJ importer brings the cage, its material and its texture. It loses
 what OBJ has no standard word for, and this adds: creases and corners, the
-subdivision modifier with the UV rule that the file states, and the UDIM tiles
-of a texture as one tiled image. Works from Blender 3.4 on.
+subdivision modifier with the UV rule that the file states, the UDIM tiles of a
+texture as one tiled image, and the other maps of a material: roughness,
+metalness and normals as numbers, and heights as displacement. Works from
+Blender 3.4 on.
 """
 
 import math
@@ -91,14 +93,14 @@ def subdivide(cage, tags, levels):
 
 
 def textures_of(cage):
-    """For each material that the MTL named: the file of its map_Kd."""
+    """For each material that the MTL named: its files by their keys."""
     found, name = {}, None
     for line in cage.with_suffix(".mtl").read_text(errors="replace").splitlines():
         key, _, value = line.strip().partition(" ")
         if key == "newmtl":
             name = value
-        elif key == "map_Kd":
-            found[name] = cage.parent / value
+        elif key in ("map_Kd", "map_Pr", "map_Pm", "norm", "disp"):
+            found.setdefault(name, {})[key] = cage.parent / value
     return found
 
 
@@ -139,24 +141,74 @@ def set_space(image, cage):
             return
 
 
+def image_of(path):
+    if "<UDIM>" in path.name:
+        return tiled_image(path)
+    return bpy.data.images.load(str(path), check_existing=True)
+
+
+def show_color(tree, surface, texture, cage):
+    """The importer has done it but for tiles and spaces."""
+    links = surface.inputs["Base Color"].links
+    node = links[0].from_node if links else None
+    if not node:
+        node = tree.nodes.new("ShaderNodeTexImage")
+        tree.links.new(node.outputs["Color"], surface.inputs["Base Color"])
+    if "<UDIM>" in texture.name or not node.image:
+        node.image = image_of(texture)
+    set_space(node.image, cage)
+
+
+def data_node(tree, path):
+    """A map of numbers, which no colour space is to change."""
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = image_of(path)
+    node.image.colorspace_settings.name = "Non-Color"
+    return node.outputs["Color"]
+
+
+def show_data(material, surface, files):
+    tree = material.node_tree
+    output = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
+    for key, socket in (("map_Pr", "Roughness"), ("map_Pm", "Metallic")):
+        if key in files:
+            tree.links.new(data_node(tree, files[key]), surface.inputs[socket])
+    if "norm" in files:
+        bend = tree.nodes.new("ShaderNodeNormalMap")
+        tree.links.new(data_node(tree, files["norm"]), bend.inputs["Color"])
+        tree.links.new(bend.outputs["Normal"], surface.inputs["Normal"])
+    if "disp" in files:
+        lift = tree.nodes.new("ShaderNodeDisplacement")
+        lift.inputs["Midlevel"].default_value = 0.0
+        lift.inputs["Scale"].default_value = 1.0
+        tree.links.new(data_node(tree, files["disp"]), lift.inputs["Height"])
+        tree.links.new(
+            lift.outputs["Displacement"], output.inputs["Displacement"])
+        if hasattr(material, "displacement_method"):
+            material.displacement_method = "BOTH"
+        else:
+            material.cycles.displacement_method = "BOTH"
+    drop_unused(tree)
+
+
+def drop_unused(tree):
+    """What the importer made of maps that are shown otherwise now."""
+    for kind in ("NORMAL_MAP", "TEX_IMAGE"):
+        for node in [n for n in tree.nodes if n.type == kind]:
+            if not any(o.is_linked for o in node.outputs):
+                tree.nodes.remove(node)
+
+
 def show_textures(mesh, path):
     textures = textures_of(path)
     for material in mesh.materials:
-        texture = textures.get(material.name) if material else None
-        if not texture:
+        files = textures.get(material.name) if material else None
+        if not files or "map_Kd" not in files:
             continue
-        nodes = material.node_tree.nodes
-        node = next((n for n in nodes if n.type == "TEX_IMAGE"), None)
-        if not node:
-            node = nodes.new("ShaderNodeTexImage")
-            surface = next(n for n in nodes if n.type == "BSDF_PRINCIPLED")
-            material.node_tree.links.new(
-                node.outputs["Color"], surface.inputs["Base Color"])
-        if "<UDIM>" in texture.name:
-            node.image = tiled_image(texture)
-        elif not node.image:
-            node.image = bpy.data.images.load(str(texture), check_existing=True)
-        set_space(node.image, path)
+        surface = next(
+            n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
+        show_color(material.node_tree, surface, files["map_Kd"], path)
+        show_data(material, surface, files)
 
 
 def load(path, levels=3, forward="NEGATIVE_Z", up="Y"):
