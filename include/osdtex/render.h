@@ -62,7 +62,10 @@ typedef struct osdtex_render_options
     double target[3];
     double fov;          /* of the picture's height, radians */
     int32_t transparent; /* 1: alpha 0 around the model */
-    int32_t reserved;
+    int32_t plain;       /* 1: of a mapping of a material the lit colour alone,
+                          * without its other maps */
+    int32_t displace;    /* 1: vertices are moved by its heights */
+    int32_t no_shadows;  /* 1: lit without rays to the model itself */
 } osdtex_render_options;
 
 static inline osdtex_render_options

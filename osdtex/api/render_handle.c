@@ -4,6 +4,7 @@
 #include "api/field_view.h"
 #include "api/handle.h"
 #include "api/image_handle.h"
+#include "render/displace.h"
 #include "render/render.h"
 #include "render/worst_seam.h"
 #include "word/near.h"
@@ -57,6 +58,8 @@ options_of(
     out->samples = ours->samples;
     out->unlit = ours->unlit != 0;
     out->transparent = ours->transparent != 0;
+    out->plain = ours->plain != 0;
+    out->no_shadows = ours->no_shadows != 0;
     out->turn = ours->turn;
     if (ours->show && !otx_render_show_find(ours->show, &out->show))
         return no_such(run, "picture to show", ours->show, show_name);
@@ -86,6 +89,7 @@ render(
     otx_render_options how;
     otx_overlay overlay;
     otx_camera camera;
+    otx_scene scene;
     otx_image image;
 
     if (!model)
@@ -107,7 +111,11 @@ render(
         OTX_TRY(otx_cell_view(run, model->surface, model->lattice, &overlay));
         how.overlay = &overlay;
     }
-    OTX_TRY(otx_render(run, &model->scene, &how, &image));
+    OTX_TRY(
+        ours.displace ? otx_scene_displace(run, &model->scene, &scene)
+                      : OSDTEX_OK);
+    OTX_TRY(
+        otx_render(run, ours.displace ? &scene : &model->scene, &how, &image));
     return otx_image_handle_wrap(run, image, out);
 }
 

@@ -1,143 +1,31 @@
-/* map_source.c -- one order of channels for the maps of all exemplars. */
+/* map_source.c -- what is looked up of maps, as what a bake evaluates. */
 #include "bake/map_source.h"
 
-#include "mapping/source.h"
+#include "mapping/map_textures.h"
 
 #include <string.h>
-
-/* Which kinds there are, and where. Returns the number of channels. */
-static int32_t
-list_kinds(
-    const otx_exemplar *exemplars, int32_t count,
-    int32_t first[OTX_COMPANION_COUNT])
-{
-    int32_t channels = 0;
-
-    for (int32_t kind = 0; kind < OTX_COMPANION_COUNT; ++kind)
-    {
-        first[kind] = -1;
-        for (int32_t k = 0; k < count && first[kind] < 0; ++k)
-            if (exemplars[k].companions.maps[kind].is_there)
-                first[kind] = channels;
-        if (first[kind] >= 0)
-            channels += otx_companion_channels((otx_companion_kind)kind);
-    }
-    return channels;
-}
-
-static bool
-is_in_order(
-    const otx_companions *companions, const int32_t first[OTX_COMPANION_COUNT])
-{
-    for (int32_t kind = 0; kind < OTX_COMPANION_COUNT; ++kind)
-        if (first[kind] >= 0 && (!companions->maps[kind].is_there ||
-                                 companions->maps[kind].first != first[kind]))
-            return false;
-    return true;
-}
-
-/* The values of one texel in that order; `from` is NULL where there are none.
- */
-static void
-order_texel(
-    const otx_companions *companions, const float *from,
-    const int32_t first[OTX_COMPANION_COUNT], float *out)
-{
-    for (int32_t kind = 0; kind < OTX_COMPANION_COUNT; ++kind)
-    {
-        const otx_companion *map = &companions->maps[kind];
-        const size_t channels =
-            (size_t)otx_companion_channels((otx_companion_kind)kind);
-
-        if (first[kind] < 0)
-            continue;
-        if (from && map->is_there)
-            memcpy(
-                out + first[kind], from + map->first, channels * sizeof *out);
-        else
-            otx_companion_neutral((otx_companion_kind)kind, out + first[kind]);
-        /* Flat is what stays where it is. */
-        if (kind == OTX_COMPANION_HEIGHT && !(from && map->is_there))
-            out[first[kind]] = (float)companions->height_middle;
-    }
-}
-
-/* The image of an exemplar's maps with all channels that are baked. */
-static otx_status
-order(
-    otx_run *run, const otx_companions *companions, int32_t channels,
-    const int32_t first[OTX_COMPANION_COUNT], otx_image *out)
-{
-    const otx_image *from = &companions->image;
-    const bool is_there = otx_companions_are_there(companions);
-    const int32_t width = is_there ? from->width : 1;
-    const int32_t height = is_there ? from->height : 1;
-    const size_t count = (size_t)width * (size_t)height;
-
-    if (is_there && is_in_order(companions, first))
-    {
-        *out = *from;
-        return OSDTEX_OK;
-    }
-    OTX_TRY(otx_image_create(run, run->arena, width, height, channels, out));
-    for (size_t i = 0; i < count; ++i)
-        order_texel(
-            companions,
-            is_there ? from->pixels + i * (size_t)from->channels : NULL, first,
-            out->pixels + i * (size_t)channels);
-    return OSDTEX_OK;
-}
-
-static otx_status
-set_carry(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
-    otx_map_source *out)
-{
-    otx_carry *carry = &out->carry;
-
-    carry->surface = mapping->surface;
-    carry->normal = out->first[OTX_COMPANION_NORMAL];
-    carry->height = out->first[OTX_COMPANION_HEIGHT];
-    for (int32_t k = 0; k < otx_source_count(mapping); ++k)
-    {
-        carry->units[k] = otx_source_unit(mapping, exemplars, k);
-        carry->heights[k] =
-            otx_companions_scale(&exemplars[k].companions, carry->units[k].x);
-    }
-    return otx_carry_measure(run, mapping, exemplars, &carry->scale);
-}
 
 otx_status
 otx_map_source_create(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_layout *layout, bool y_down, otx_map_source *out)
 {
-    const int32_t count = otx_source_count(mapping);
     otx_texel_source *texels = &out->texels;
+    otx_map_textures maps;
 
-    *out = (otx_map_source){.y_down = y_down};
+    OTX_TRY(otx_map_textures_create(run, mapping, exemplars, &maps));
+    *out = (otx_map_source){.y_down = y_down, .carry = maps.carry};
+    memcpy(out->first, maps.first, sizeof out->first);
     *texels = (otx_texel_source){
         .mapping = mapping,
         .show = otx_show_of(mapping),
         .layout = layout,
         .exemplars = exemplars,
         .kind = OTX_TEXEL_MAPS,
-        .channels = list_kinds(exemplars, count, out->first)};
-    if (texels->channels == 0)
-        return OSDTEX_OK;
-    OTX_TRY(set_carry(run, mapping, exemplars, out));
-    texels->show.carry = &out->carry;
-    for (int32_t k = 0; k < count; ++k)
-    {
-        otx_image image;
-
-        OTX_TRY(order(
-            run, &exemplars[k].companions, texels->channels, out->first,
-            &image));
-        OTX_TRY(otx_texture_create(
-            run, run->arena, &image, exemplars[k].wrap_x, exemplars[k].wrap_y,
-            &texels->textures[k]));
-    }
+        .channels = maps.channels};
+    memcpy(texels->textures, maps.textures, sizeof texels->textures);
+    if (maps.channels > 0)
+        texels->show.carry = &out->carry;
     return OSDTEX_OK;
 }
 

@@ -275,6 +275,15 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_UNLIT] =
         {"unlit", 0, OTX_FLAG_GROUP_PICTURE, NULL,
          "the colours as they are, without light"},
+    [OTX_FLAG_PLAIN] =
+        {"plain", 0, OTX_FLAG_GROUP_PICTURE, NULL,
+         "of a material the colour alone, lit as if it were matte"},
+    [OTX_FLAG_DISPLACE] =
+        {"displace", 0, OTX_FLAG_GROUP_PICTURE, NULL,
+         "of the picture or preview: move the mesh by the map of heights"},
+    [OTX_FLAG_NO_SHADOWS] =
+        {"no-shadows", 0, OTX_FLAG_GROUP_PICTURE, NULL,
+         "light that the model does not keep off itself"},
     [OTX_FLAG_THREADS] =
         {"threads", 0, OTX_FLAG_GROUP_COMMON, "N",
          "threads, 0 for all cores; the result does not depend on it (default: "

@@ -103,6 +103,8 @@ render_preview(otx_session *session, job *j)
     if (!j->request.preview)
         return OSDTEX_OK;
     options.show = j->request.values->text[OTX_FLAG_SHOW];
+    options.plain = j->request.values->text[OTX_FLAG_PLAIN] != NULL;
+    options.displace = j->request.values->text[OTX_FLAG_DISPLACE] != NULL;
     status = osdtex_model_create(session->context, j->mapping, &model);
     if (status == OSDTEX_OK)
         status = osdtex_render(session->context, model, &options, &j->picture);

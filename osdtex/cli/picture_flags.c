@@ -75,6 +75,9 @@ otx_picture_flags_parse(
     *out = osdtex_render_options_default();
     out->show = values->text[OTX_FLAG_SHOW];
     out->unlit = values->text[OTX_FLAG_UNLIT] != NULL;
+    out->plain = values->text[OTX_FLAG_PLAIN] != NULL;
+    out->displace = values->text[OTX_FLAG_DISPLACE] != NULL;
+    out->no_shadows = values->text[OTX_FLAG_NO_SHADOWS] != NULL;
     if (!parse_camera(values, out) || !parse_size(values, out))
         return false;
     if (samples)

@@ -105,23 +105,43 @@ cosine_direction(otx_vec3 n, otx_vec2 square)
         otx_vec3_mix(disc.x, x, disc.y, y), otx_vec3_scale(height, n));
 }
 
+/* A direction to the key's disc. */
+static otx_vec3
+key_direction(const otx_light *light, otx_vec2 square)
+{
+    const otx_vec2 disc = sample_disc(square);
+
+    return otx_vec3_unit(otx_vec3_add(
+        light->key, otx_vec3_mix(disc.x, light->key_x, disc.y, light->key_y)));
+}
+
+static bool
+key_is_seen(const otx_light *light, otx_vec3 from, otx_vec3 face, otx_vec3 to)
+{
+    return !light->shadows ||
+           (otx_vec3_dot(face, to) > 0.0 &&
+            !otx_tracer_occluded(light->tracer, from, to, INFINITY));
+}
+
 static double
 key_light(
     const otx_light *light, otx_vec3 from, otx_vec3 face, otx_vec3 normal,
     otx_vec2 square)
 {
-    const otx_vec2 disc = sample_disc(square);
-    const otx_vec3 to = otx_vec3_unit(otx_vec3_add(
-        light->key, otx_vec3_mix(disc.x, light->key_x, disc.y, light->key_y)));
+    const otx_vec3 to = key_direction(light, square);
     const double cosine = otx_vec3_dot(normal, to);
 
-    if (cosine <= 0.0)
-        return 0.0;
-    if (light->shadows &&
-        (otx_vec3_dot(face, to) <= 0.0 ||
-         otx_tracer_occluded(light->tracer, from, to, INFINITY)))
-        return 0.0;
-    return cosine;
+    return cosine > 0.0 && key_is_seen(light, from, face, to) ? cosine : 0.0;
+}
+
+/* Of the sky's light in a direction, what the model lets through. */
+static double
+sky_open(const otx_light *light, otx_vec3 from, otx_vec3 face, otx_vec3 to)
+{
+    return otx_vec3_dot(face, to) <= 0.0 ||
+                   otx_tracer_occluded(light->tracer, from, to, REACH)
+               ? BOUNCE
+               : 1.0;
 }
 
 static double
@@ -135,12 +155,55 @@ sky_light(
         return sky_from(otx_vec3_scale(2.0 / 3.0, normal));
 
     const otx_vec3 to = cosine_direction(normal, square);
-    const double sky = sky_from(to);
 
-    if (otx_vec3_dot(face, to) <= 0.0 ||
-        otx_tracer_occluded(light->tracer, from, to, REACH))
-        return BOUNCE * sky;
-    return sky;
+    return sky_open(light, from, face, to) * sky_from(to);
+}
+
+/* The same mirrored: from the direction that stands for all of it, as open as
+ * the sky is in one of the matte surface's. */
+static otx_gloss
+sky_gloss(
+    const otx_light *light, const otx_light_place *p, otx_vec3 from,
+    otx_vec2 square)
+{
+    const double sky =
+        sky_from(otx_gloss_direction(p->normal, p->eye, p->roughness));
+    const double open =
+        light->shadows
+            ? sky_open(
+                  light, from, p->face, cosine_direction(p->normal, square))
+            : 1.0;
+    const otx_gloss all = otx_gloss_sky(p->normal, p->eye, p->roughness);
+
+    return (otx_gloss){open * sky * all.facing, open * sky * all.grazing};
+}
+
+otx_lit
+otx_light_material(
+    const otx_light *light, const otx_light_place *p, int32_t number,
+    int32_t count, uint64_t key)
+{
+    const otx_vec3 from = otx_vec3_add(p->at, otx_vec3_scale(LIFT, p->face));
+    const otx_vec2 a = sample_square(number, count, key, 1);
+    const otx_vec2 b = sample_square(number, count, key, 2);
+    const otx_vec3 to = key_direction(light, a);
+    const double cosine = otx_vec3_dot(p->normal, to);
+    const double sky = SKY * p->open;
+    const otx_gloss of_sky = sky_gloss(light, p, from, b);
+    otx_lit lit = {
+        sky * sky_light(light, from, p->face, p->normal, b),
+        {sky * of_sky.facing, sky * of_sky.grazing}};
+
+    if (!(cosine > 0.0) || !key_is_seen(light, from, p->face, to))
+        return lit;
+
+    const otx_gloss gloss =
+        otx_gloss_light(p->normal, to, p->eye, p->roughness);
+
+    lit.matte += KEY * cosine;
+    lit.gloss.facing += KEY * gloss.facing;
+    lit.gloss.grazing += KEY * gloss.grazing;
+    return lit;
 }
 
 double

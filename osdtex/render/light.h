@@ -4,6 +4,7 @@
 #define OTX_RENDER_LIGHT_H
 
 #include "render/camera.h"
+#include "render/gloss.h"
 #include "render/tracer.h"
 
 typedef struct otx_light
@@ -17,6 +18,31 @@ typedef struct otx_light
 /* A key that goes with the camera, so that every view is lit alike. */
 otx_light otx_light_create(
     const otx_tracer *tracer, const otx_camera_frame *frame, bool shadows);
+
+/* What a place sends to the eye: of its colour, and by its gloss. */
+typedef struct otx_lit
+{
+    double matte;
+    otx_gloss gloss;
+} otx_lit;
+
+/* A place that is lit. */
+typedef struct otx_light_place
+{
+    otx_vec3 at;     /* on the model, in the tracer's units */
+    otx_vec3 face;   /* unit normal of the triangle, towards the eye */
+    otx_vec3 normal; /* unit, to shade with */
+    otx_vec3 eye;    /* unit, towards it */
+    double roughness;
+    double open; /* of the sky, that what no ray sees leaves: occlusion */
+} otx_light_place;
+
+/* The light on a place of a material.
+ *
+ *   number, count, key  as below */
+otx_lit otx_light_material(
+    const otx_light *light, const otx_light_place *place, int32_t number,
+    int32_t count, uint64_t key);
 
 /* How much light a white matte surface gives off, 1 being about as much as it
  * shows under the key.

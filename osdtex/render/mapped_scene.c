@@ -33,6 +33,20 @@ list_sources(otx_run *run, const otx_mapping *mapping, const int32_t **out)
     return OSDTEX_OK;
 }
 
+/* NULL in *out where no exemplar has any. */
+static otx_status
+make_maps(
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
+    const otx_map_textures **out)
+{
+    otx_map_textures *maps = OTX_ZNEW(run->arena, otx_map_textures, 1);
+
+    OTX_TRY(otx_run_ok(run));
+    OTX_TRY(otx_map_textures_create(run, mapping, exemplars, maps));
+    *out = maps->channels > 0 ? maps : NULL;
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_scene_from_mapping(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
@@ -63,6 +77,7 @@ otx_scene_from_mapping(
         .face_patch = mapping->face_patch,
     };
     OTX_TRY(list_sources(run, mapping, &out->face_texture));
+    OTX_TRY(make_maps(run, mapping, exemplars, &out->maps));
     return otx_distortion_faces(
         run, run->arena, out, units, &out->face_stretch);
 }

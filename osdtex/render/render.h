@@ -30,6 +30,7 @@ typedef struct otx_render_options
     int32_t samples;       /* to a pixel's side: n * n, 1 .. 16 */
     otx_show show;
     bool unlit;               /* the colours as they are */
+    bool plain;               /* lit colour: maps are not looked at */
     bool no_shadows;          /* light without rays to the model itself */
     bool transparent;         /* alpha 0 around the model, else a grey wall */
     const otx_camera *camera; /* NULL: `view` and `turn` */

@@ -7,6 +7,7 @@
 #define OTX_RENDER_SCENE_H
 
 #include "exemplar/exemplar.h"
+#include "mapping/map_textures.h"
 #include "mapping/show.h"
 
 /* Scene-linear pixels; 1 and 2 channels are grey, alpha is not looked at. */
@@ -33,6 +34,9 @@ typedef struct otx_scene
 
     int32_t texture_count;
     const otx_scene_texture *textures; /* [texture_count] */
+    /* Of the same exemplars as the textures, on the mapping that the scene is
+     * from; NULL: matte colours. */
+    const otx_map_textures *maps;
     const int32_t
         *face_texture; /* [face_count], -1 none; NULL: all the first */
 

@@ -170,30 +170,55 @@ set_grey(float value, float rgb[3])
     rgb[0] = rgb[1] = rgb[2] = value;
 }
 
+/* What is looked up at a hit, and how far it is to the next sample: as moves
+ * over the triangle's plane along the picture's two axes, and as weights. */
+typedef struct footprint
+{
+    otx_vec3 right, up;
+    double dx[3], dy[3];
+} footprint;
+
+static footprint
+footprint_of(const otx_shade *shade, const otx_hit *hit)
+{
+    const otx_camera_frame *frame = &shade->frame;
+    footprint f = {
+        .right = move_on_plane(hit, frame->eye, frame->forward, frame->right),
+        .up = move_on_plane(hit, frame->eye, frame->forward, frame->up)};
+
+    weights_along(hit, f.right, f.dx);
+    weights_along(hit, f.up, f.dy);
+    return f;
+}
+
+/* Which texture a face shows; -1 none. */
+static int32_t
+texture_of(const otx_scene *scene, int32_t face)
+{
+    const int32_t t = scene->face_texture ? scene->face_texture[face] : 0;
+
+    return scene->uvs && t < scene->texture_count ? t : -1;
+}
+
 static void
 texture_color(const otx_shade *shade, const otx_hit *hit, float rgb[3])
 {
     const otx_scene *scene = shade->scene;
-    const otx_camera_frame *frame = &shade->frame;
     const otx_show_view show = {
         scene->uvs, scene->face_first, scene->lookups, NULL};
-    const int32_t t = scene->face_texture ? scene->face_texture[hit->face] : 0;
+    const int32_t t = texture_of(scene, hit->face);
     const double share = 1.0 / shade->options->samples;
     float color[OTX_IMAGE_MAX_CHANNELS];
-    double dx[3], dy[3];
-    const otx_show_place place = {
-        hit->face, hit->corners, hit->weights, dx, dy};
 
-    if (!scene->uvs || t < 0 || t >= scene->texture_count)
+    if (t < 0)
     {
         set_grey(0.5f, rgb);
         return;
     }
-    weights_along(
-        hit, move_on_plane(hit, frame->eye, frame->forward, frame->right), dx);
-    weights_along(
-        hit, move_on_plane(hit, frame->eye, frame->forward, frame->up), dy);
 
+    const footprint f = footprint_of(shade, hit);
+    const otx_show_place place = {
+        hit->face, hit->corners, hit->weights, f.dx, f.dy};
     const int32_t channels = shade->textures[t].pyramid.levels[0].channels;
 
     otx_show_color(&show, shade->textures, &place, t, share, channels, color);
@@ -380,6 +405,114 @@ is_lit(const otx_render_options *options)
            options->show != OTX_SHOW_NORMALS;
 }
 
+/* ---- materials ------------------------------------------------------------
+ */
+
+/* What the maps say at a hit. */
+typedef struct material
+{
+    otx_vec3 normal; /* unit, on the outside */
+    double roughness, metalness, occlusion;
+} material;
+
+static double
+value_of(
+    const otx_map_textures *maps, const float *values, otx_companion_kind kind)
+{
+    float neutral[3];
+
+    otx_companion_neutral(kind, neutral);
+    return fmin(
+        fmax(
+            maps->first[kind] < 0 ? neutral[0] : values[maps->first[kind]],
+            0.0f),
+        1.0f);
+}
+
+/* A normal in the frame of the footprint, on the smooth surface. */
+static otx_vec3
+bend(const footprint *f, const float n[3], otx_vec3 normal)
+{
+    const otx_vec3 x = otx_vec3_unit(f->right);
+    const otx_vec3 y =
+        otx_vec3_unit(otx_vec3_mix(1.0, f->up, -otx_vec3_dot(f->up, x), x));
+
+    return otx_vec3_unit(otx_vec3_add(
+        otx_vec3_mix(n[0], x, n[1], y), otx_vec3_scale(n[2], normal)));
+}
+
+static material
+material_at(
+    const otx_shade *shade, const otx_hit *hit, int32_t t, otx_vec3 normal)
+{
+    const otx_scene *scene = shade->scene;
+    const otx_map_textures *maps = scene->maps;
+    const otx_show_view show = {
+        scene->uvs, scene->face_first, scene->lookups, &maps->carry};
+    const footprint f = footprint_of(shade, hit);
+    const otx_show_place place = {
+        hit->face, hit->corners, hit->weights, f.dx, f.dy};
+    const int32_t bent = maps->first[OTX_COMPANION_NORMAL];
+    float values[OTX_IMAGE_MAX_CHANNELS];
+
+    otx_show_color(
+        &show, maps->textures, &place, t, 1.0 / shade->options->samples,
+        maps->channels, values);
+    return (material){
+        bent < 0 ? normal : bend(&f, values + bent, normal),
+        value_of(maps, values, OTX_COMPANION_ROUGHNESS),
+        value_of(maps, values, OTX_COMPANION_METALNESS),
+        value_of(maps, values, OTX_COMPANION_OCCLUSION)};
+}
+
+/* Light of all rays of a sample on a material of the colour in `rgb`. */
+static void
+light_material(
+    const otx_shade *shade, const otx_hit *hit, const otx_shade_sample *sample,
+    const material *m, float rgb[3])
+{
+    static const double DIELECTRIC = 0.04;
+    const bool behind = otx_vec3_dot(hit->normal, sample->direction) > 0.0;
+    const double side = behind ? -1.0 : 1.0;
+    const otx_light_place place = {
+        hit->at,
+        otx_vec3_scale(side, hit->normal),
+        otx_vec3_scale(side, m->normal),
+        otx_vec3_unit(otx_vec3_scale(-1.0, sample->direction)),
+        m->roughness,
+        m->occlusion};
+    const int32_t rays = shade->light_rays;
+    const int32_t count = shade->options->samples * shade->options->samples;
+    otx_lit sum = {0.0, {0.0, 0.0}};
+
+    for (int32_t i = 0; i < rays; ++i)
+    {
+        const otx_lit lit = otx_light_material(
+            &shade->light, &place, sample->number * rays + i, count * rays,
+            sample->pixel);
+
+        sum.matte += lit.matte / rays;
+        sum.gloss.facing += lit.gloss.facing / rays;
+        sum.gloss.grazing += lit.gloss.grazing / rays;
+    }
+    for (int32_t c = 0; c < 3; ++c)
+    {
+        const double facing = DIELECTRIC + m->metalness * (rgb[c] - DIELECTRIC);
+
+        rgb[c] = (float)(
+            (1.0 - m->metalness) * rgb[c] * sum.matte +
+            facing * sum.gloss.facing + sum.gloss.grazing);
+    }
+}
+
+static bool
+shows_material(const otx_shade *shade, const otx_hit *hit)
+{
+    return shade->scene->maps && !shade->options->plain &&
+           shade->options->show == OTX_SHOW_TEXTURE &&
+           texture_of(shade->scene, hit->face) >= 0;
+}
+
 static double
 light_at_hit(
     const otx_shade *shade, const otx_hit *hit, const otx_shade_sample *sample,
@@ -409,6 +542,14 @@ otx_shade_hit(
     surface_color(shade, hit, sample->at, normal, rgb);
     if (!is_lit(shade->options))
         return;
+    if (shows_material(shade, hit))
+    {
+        const material m = material_at(
+            shade, hit, texture_of(shade->scene, hit->face), normal);
+
+        light_material(shade, hit, sample, &m, rgb);
+        return;
+    }
 
     const double light = light_at_hit(shade, hit, sample, normal);
 

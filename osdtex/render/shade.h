@@ -28,7 +28,7 @@ typedef struct otx_shade
 typedef struct otx_shade_sample
 {
     otx_vec2 at;        /* in the picture, pixels */
-    otx_vec3 direction; /* of its ray */
+    otx_vec3 direction; /* of its ray, unit */
     int32_t number;     /* in its pixel */
     uint64_t pixel;     /* hash key of the pixel */
 } otx_shade_sample;

@@ -1,0 +1,25 @@
+/* map_textures.h -- the maps of all exemplars of a mapping, to be looked up. */
+#ifndef OTX_MAPPING_MAP_TEXTURES_H
+#define OTX_MAPPING_MAP_TEXTURES_H
+
+#include "image/texture.h"
+#include "mapping/carry.h"
+
+/* Values lie in one order of channels for all exemplars, and otx_show_color
+ * finds them with `carry` in its view. */
+typedef struct otx_map_textures
+{
+    otx_texture textures[OTX_EXEMPLARS_MAX];
+    otx_carry carry;
+    /* First channel of a kind's values; -1: no exemplar has it. */
+    int32_t first[OTX_COMPANION_COUNT];
+    int32_t channels; /* 0: no exemplar has a map */
+} otx_map_textures;
+
+/* Prepares the maps that any of the exemplars has, in run->arena: where another
+ * has none, it is flat and neutral. Borrows all. MEMORY. */
+otx_status otx_map_textures_create(
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
+    otx_map_textures *out);
+
+#endif
