@@ -33,16 +33,24 @@ otx_gloss_light(otx_vec3 normal, otx_vec3 to, otx_vec3 eye, double roughness)
     return (otx_gloss){all * (1.0 - fresnel), all * fresnel};
 }
 
+/* Polynomials in the roughness r and the cosine v, fitted to the integral over
+ * all lights: what is mirrored of F0 1, and the part of it that is grazing. */
 otx_gloss
 otx_gloss_sky(otx_vec3 normal, otx_vec3 eye, double roughness)
 {
-    const double r = fmin(fmax(roughness, ROUGHNESS_MIN), 1.0);
-    const double nv = fmax(otx_vec3_dot(normal, eye), 0.0);
-    const double x = 1.0 - r, y = 0.0425 - 0.0275 * r;
-    const double z = 1.04 - 0.572 * r, w = 0.022 * r - 0.04;
-    const double a = fmin(x * x, exp2(-9.28 * nv)) * x + y;
+    const double r = fmin(fmax(roughness, ROUGHNESS_MIN), 1.0), r_sq = r * r;
+    const double v = fmin(fmax(otx_vec3_dot(normal, eye), 0.0), 1.0);
+    const double q = 1.0 - v, q_3 = q * q * q;
+    const double lost =
+        r_sq * (1.915 - 3.976 * r + 2.178 * r_sq +
+                v * (-2.689 + 9.029 * r - 5.077 * r_sq) - 0.735 * v * v);
+    const double all = fmin(fmax(1.0 - lost, 0.0), 1.0);
+    const double grazing = q_3 * q * q * (1.129 - 4.041 * r + 3.197 * r_sq) +
+                           q_3 * r * (1.468 - 1.683 * r) +
+                           q * r_sq * (0.2588 * r - 0.2185);
+    const double part = fmin(fmax(grazing, 0.0), all);
 
-    return (otx_gloss){z - 1.04 * a, fmax(1.04 * a + w, 0.0)};
+    return (otx_gloss){all - part, part};
 }
 
 otx_vec3

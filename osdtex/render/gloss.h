@@ -23,7 +23,8 @@ typedef struct otx_gloss
 otx_gloss
 otx_gloss_light(otx_vec3 normal, otx_vec3 to, otx_vec3 eye, double roughness);
 
-/* Of a sky that is 1 everywhere: the fit of [Karis14]. */
+/* Of a sky that is 1 everywhere, within .06 of the sum of all lights where
+ * the eye is less than 60 degrees from the normal. */
 otx_gloss otx_gloss_sky(otx_vec3 normal, otx_vec3 eye, double roughness);
 
 /* The direction that stands for what is mirrored of a sky which is no darker
