@@ -255,12 +255,13 @@ typedef int32_t osdtex_saved_file;
 enum
 {
     OSDTEX_SAVED_CAGE = 0,
-    OSDTEX_SAVED_EXEMPLAR = 1
+    OSDTEX_SAVED_EXEMPLAR = 1,
+    OSDTEX_SAVED_MAP = 2 /* another map of an exemplar's material */
 };
 
 /* Calls `visit` with the files that osdtex_mapping_read() would read for this
  * saved mapping, by the paths where they are found: the cage, then the
- * exemplars in their order. FORMAT, SUPPORT, IO, MEMORY. */
+ * exemplars in their order, then their maps. FORMAT, SUPPORT, IO, MEMORY. */
 OSDTEX_API osdtex_status osdtex_mapping_files(
     osdtex_context *context, const char *path,
     void (*visit)(void *user, osdtex_saved_file file, const char *path),

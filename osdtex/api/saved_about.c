@@ -53,6 +53,27 @@ print_cage(const osdtex_cage *cage, const char *topology, int32_t level)
         (int)c->boundary, "fvar", (int)c->fvar, "level", (int)level);
 }
 
+/* The other maps of a material, by their kinds. */
+static json_t *
+print_maps(const otx_companions *companions)
+{
+    json_t *list = json_array();
+
+    for (int k = 0; k < OTX_COMPANION_COUNT; ++k)
+    {
+        const otx_companion *map = &companions->maps[k];
+
+        if (map->is_there && map->path)
+            json_array_append_new(
+                list, json_pack(
+                          "{s:s, s:s, s:i, s:b, s:b}", "kind",
+                          otx_companion_name((otx_companion_kind)k), "path",
+                          map->path, "channel", (int)map->channel, "y_down",
+                          map->y_down, "inverted", map->is_inverted));
+    }
+    return list;
+}
+
 static json_t *
 print_exemplar(const osdtex_exemplar *handle, const otx_exemplar *compared)
 {
@@ -62,7 +83,7 @@ print_exemplar(const osdtex_exemplar *handle, const otx_exemplar *compared)
     return json_pack(
         "{s:s, s:o, s:o, s:s, s:s, s:i, s:o, s:i, s:i, s:[i,i], s:[i,i,i,i], "
         "s:b, "
-        "s:[i,i], s:[i,i], s:[b,b]}",
+        "s:[i,i], s:[i,i], s:[b,b], s:o, s:f, s:f}",
         "path", e->source_path, "hash", text_or_null(e->source_hash), "layer",
         text_or_null(c->layer), "from", e->source_space, "to", e->linear_space,
         "receiver", (int)e->receiver, "match_space",
@@ -70,7 +91,9 @@ print_exemplar(const osdtex_exemplar *handle, const otx_exemplar *compared)
         (int)c->wrap, "file_size", c->file_width, c->file_height, "kept", c->x,
         c->y, c->width, c->height, "rearranged", c->texels != NULL, "size",
         e->linear.width, e->linear.height, "compared", compared->match.width,
-        compared->match.height, "wraps", e->wrap_x, e->wrap_y);
+        compared->match.height, "wraps", e->wrap_x, e->wrap_y, "maps",
+        print_maps(&e->companions), "height_range", e->companions.height_range,
+        "height_middle", e->companions.height_middle);
 }
 
 static json_t *
@@ -243,6 +266,38 @@ parse_cuts(parser *p, const json_t *json, otx_saved_exemplar *out)
     c->height = get_int(p, json_array_get(kept, 3), 1, c->file_height - c->y);
 }
 
+/* Of a file that was saved before there were any: none. */
+static void
+parse_maps(parser *p, const json_t *json, otx_saved_exemplar *out)
+{
+    const json_t *list = json_object_get(json, "maps");
+    const size_t count = json_array_size(list);
+
+    p->sound = p->sound && count <= OSDTEX_MAP_KINDS;
+    for (size_t i = 0; p->sound && i < count; ++i)
+    {
+        const json_t *map = json_array_get(list, i);
+        const char *kind = get_text(p, map, "kind", false);
+        int k = 0;
+
+        while (k < OTX_COMPANION_COUNT &&
+               strcmp(kind, otx_companion_name((otx_companion_kind)k)) != 0)
+            ++k;
+        p->sound = p->sound && k < OTX_COMPANION_COUNT;
+        out->maps[i] = (osdtex_companion){
+            .path = get_text(p, map, "path", false),
+            .kind = k,
+            .channel = get_member(p, map, "channel", 0, 3),
+            .y_down = json_is_true(json_object_get(map, "y_down")),
+            .inverted = json_is_true(json_object_get(map, "inverted"))};
+    }
+    out->options.map_count = (int32_t)count;
+    if (count == 0)
+        return;
+    out->options.height_range = get_real(p, json, "height_range");
+    out->options.height_middle = get_real(p, json, "height_middle");
+}
+
 static void
 parse_exemplar(parser *p, const json_t *json, otx_saved_exemplar *out)
 {
@@ -271,6 +326,7 @@ parse_exemplar(parser *p, const json_t *json, otx_saved_exemplar *out)
     out->rearranged = json_is_true(json_object_get(json, "rearranged"));
     out->wrap_x = json_is_true(json_array_get(wraps, 0));
     out->wrap_y = json_is_true(json_array_get(wraps, 1));
+    parse_maps(p, json, out);
 }
 
 static void

@@ -22,6 +22,8 @@ typedef struct otx_saved_exemplar
     int32_t width, height;  /* of what the mapping refers to */
     int32_t match_width, match_height;
     bool wrap_x, wrap_y;
+    osdtex_companion maps[OSDTEX_MAP_KINDS]; /* [options.map_count], the other
+                                              * maps of a material */
 } otx_saved_exemplar;
 
 /* Strings live in the arena that it was read into. */

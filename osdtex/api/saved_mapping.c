@@ -310,6 +310,30 @@ check_texels(const loader *l, const otx_exemplar_cuts *cuts)
     return OSDTEX_OK;
 }
 
+/* The maps that are asked for, else those of the material; another picture has
+ * none of these. */
+static otx_status
+choose_maps(loader *l, int32_t k, bool swapped)
+{
+    otx_saved_exemplar *s = &l->about.exemplars[k];
+
+    if (k == 0 && l->options.map_count > 0)
+    {
+        s->options.maps = l->options.maps;
+        s->options.map_count = l->options.map_count;
+        s->options.height_range = l->options.height_range;
+        s->options.height_middle = l->options.height_middle;
+        return OSDTEX_OK;
+    }
+    if (swapped)
+        s->options.map_count = 0;
+    s->options.maps = s->maps;
+    for (int32_t i = 0; i < s->options.map_count; ++i)
+        OTX_TRY(find_file(
+            &l->call->run, l->path, s->maps[i].path, &s->maps[i].path));
+    return OSDTEX_OK;
+}
+
 static otx_status
 read_exemplar(loader *l, int32_t k)
 {
@@ -339,13 +363,7 @@ read_exemplar(loader *l, int32_t k)
         s->options.to = l->options.to;
         s->options.receiver = l->options.receiver;
     }
-    if (k == 0)
-    {
-        s->options.maps = l->options.maps;
-        s->options.map_count = l->options.map_count;
-        s->options.height_range = l->options.height_range;
-        s->options.height_middle = l->options.height_middle;
-    }
+    OTX_TRY(choose_maps(l, k, swapped));
     OTX_TRY(otx_exemplar_handle_read(
         l->call->context, path, &s->options, &s->cuts,
         l->options.without_figures != 0, &l->exemplars[k]));
@@ -691,6 +709,13 @@ list_files(
         OTX_TRY(find_file(run, path, about->exemplars[k].path, &found));
         visit(user, OSDTEX_SAVED_EXEMPLAR, found);
     }
+    for (int32_t k = 0; k < about->exemplar_count; ++k)
+        for (int32_t i = 0; i < about->exemplars[k].options.map_count; ++i)
+        {
+            OTX_TRY(
+                find_file(run, path, about->exemplars[k].maps[i].path, &found));
+            visit(user, OSDTEX_SAVED_MAP, found);
+        }
     return OSDTEX_OK;
 }
 

@@ -122,7 +122,8 @@ typedef struct otx_flag
 enum
 {
     OTX_FLAG_SETTINGS_MAX = 64,
-    OTX_FLAG_SAVED_MAX = 1 + OSDTEX_EXEMPLARS_MAX, /* files of --from */
+    /* Files of --from. */
+    OTX_FLAG_SAVED_MAX = 1 + OSDTEX_EXEMPLARS_MAX * (1 + OSDTEX_MAP_KINDS),
     OTX_FLAG_SPOOLS_MAX = 8,
     OTX_FLAG_OPERANDS_MAX = 8,
     OTX_FLAG_EDGES_MAX = 8,
@@ -138,8 +139,9 @@ typedef struct otx_flag_spool
     size_t prefix;    /* bytes of both before the file's name */
 } otx_flag_spool;
 
-/* The files that a saved mapping names: its cage, then its exemplars, of which
- * operands stand in the place of the first ones. See saved_files.h. */
+/* The files that a saved mapping names: its cage, then its exemplars and their
+ * maps, of which operands stand in the place of the first ones. See
+ * saved_files.h. */
 typedef struct otx_flag_saved
 {
     char *files[OTX_FLAG_SAVED_MAX];

@@ -82,6 +82,24 @@ class Material(ProgramTest):
         self.assertTrue((self.folder / "a_normal.exr").exists())
         self.assertFalse((self.folder / "a_height.exr").exists())
 
+    def test_a_saved_mapping_has_its_maps(self):
+        """It bakes all of them again, or without them another picture."""
+        saved = self.folder / "m.osdtex"
+        self.assert_exit(
+            self.bake("--material", self.set, "--save", saved), 0)
+        result = self.run_program(
+            "bake", "--from", saved, "-o", self.folder / "b.obj", *BAKE)
+        self.assert_exit(result, 0)
+        for kind in KINDS:
+            self.assertEqual(
+                self.pixels(f"a_{kind}.1001.exr")[-4000:],
+                self.pixels(f"b_{kind}.1001.exr")[-4000:], kind)
+        result = self.run_program(
+            "bake", "--from", saved, CAGE, EXEMPLARS / "gravel_tile.png", "-o",
+            self.folder / "c.obj", *BAKE)
+        self.assert_exit(result, 0)
+        self.assertFalse((self.folder / "c_normal.1001.exr").exists())
+
     def test_update_and_guard(self):
         def again(*more):
             result = self.bake("--material", self.set, "-u", *more)
