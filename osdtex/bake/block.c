@@ -108,9 +108,9 @@ otx_block_draw(
     *out = (otx_block){
         .source = source,
         .mip = mip,
-        .rims = mip->near_rims.items + rim,
-        .rim_count = mip->near_rims.first[index + 1] - rim,
-        .far_rim = mip->far_rim[index],
+        .rims =
+            {mip->near_rims.items + rim, mip->near_rims.first[index + 1] - rim,
+             mip->far_rim[index]},
     };
     place(out, x, y);
     if (!allocate(out, scratch))

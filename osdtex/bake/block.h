@@ -11,6 +11,13 @@ enum
     OTX_BLOCK_SAMPLES_MAX = 4 /* to a texel's side */
 };
 
+typedef struct otx_block_rims
+{
+    const int32_t *near; /* [count] the block */
+    int64_t count;
+    int32_t far; /* one where none is near */
+} otx_block_rims;
+
 /* The texels of a mip level's block, with an apron of texels around them where
  * they are fitted to lookups. */
 typedef struct otx_block
@@ -22,9 +29,7 @@ typedef struct otx_block
     otx_raster raster;     /* with it */
     otx_raster_near near_rim, near_seam;
     otx_mip_facet *pieces; /* [OTX_BLOCK_PIECES], by hash of their id */
-    const int32_t *rims;   /* [rim_count] near the block */
-    int64_t rim_count;
-    int32_t far_rim;
+    otx_block_rims rims;
 } otx_block;
 
 /* Places block (x, y), of which rows count from the top, and draws the faces,

@@ -38,18 +38,18 @@ static int32_t
 nearest_rim(const otx_block *block, otx_vec2 texel)
 {
     double best_sq = INFINITY;
-    int32_t best = block->far_rim;
+    int32_t best = block->rims.far;
 
-    for (int64_t i = 0; i < block->rim_count; ++i)
+    for (int64_t i = 0; i < block->rims.count; ++i)
     {
-        const otx_vec2 d =
-            otx_vec2_sub(texel, nearest_on(block->mip, block->rims[i], texel));
+        const otx_vec2 d = otx_vec2_sub(
+            texel, nearest_on(block->mip, block->rims.near[i], texel));
         const double sq = otx_vec2_dot(d, d);
 
         if (sq < best_sq)
         {
             best_sq = sq;
-            best = block->rims[i];
+            best = block->rims.near[i];
         }
     }
     return best;

@@ -92,6 +92,61 @@ asks_for_exemplar(const otx_constraint_line *line)
     return line->exemplar > 0 || line->exemplar_name;
 }
 
+/* Reads a member other than "exemplar". What it is when it is as it should be;
+ * NULL when it is. */
+static const char *
+read_member(const char *key, const json_t *value, otx_constraint_line *out)
+{
+    static const char *const THREE = "is three numbers";
+    static const char *const POSITIVE = "is a positive number";
+
+    if (strcmp(key, "face") == 0)
+        return read_face(value, &out->face) ? NULL
+                                            : "is a face of the cage, from 0";
+    if (strcmp(key, "point") == 0)
+        return read_vector(value, out->point) ? NULL : THREE;
+    if (strcmp(key, "direction") == 0)
+    {
+        out->has_direction = true;
+        return read_vector(value, out->direction) ? NULL : THREE;
+    }
+    if (strcmp(key, "radius") == 0)
+        return read_positive(value, &out->radius) ? NULL : POSITIVE;
+    if (strcmp(key, "scale") == 0)
+        return read_positive(value, &out->scale) ? NULL : POSITIVE;
+    if (strcmp(key, "material") == 0)
+    {
+        out->has_material = true;
+        out->material = json_number_value(value);
+        return json_is_number(value) && out->material >= 0.0 &&
+                       out->material <= 1.0
+                   ? NULL
+                   : "is a number from 0 to 1";
+    }
+    return "is not known; there are face, point, radius, direction, scale, "
+           "material and exemplar";
+}
+
+/* Whether the members go together. */
+static otx_status
+check_item(
+    otx_run *run, const char *path, int32_t index, bool has_point,
+    const otx_constraint_line *line)
+{
+    if ((line->face >= 0) == has_point)
+        return refuse(run, path, index, "face", "or \"point\" is needed, one");
+    if (line->has_material && asks_for_exemplar(line))
+        return refuse(
+            run, path, index, "material",
+            "and \"exemplar\" say the same; give one");
+    if (!line->has_direction && line->scale == 0.0 && !line->has_material &&
+        !asks_for_exemplar(line))
+        return refuse(
+            run, path, index, "direction",
+            "or \"scale\", \"material\" or \"exemplar\" is needed");
+    return OSDTEX_OK;
+}
+
 static otx_status
 read_item(
     otx_run *run, const char *path, int32_t index, json_t *item,
@@ -99,69 +154,22 @@ read_item(
 {
     const char *key;
     json_t *value;
-    bool has_point = false;
 
     *out = (otx_constraint_line){.face = -1};
     if (!json_is_object(item))
         return refuse(run, path, index, "constraints", "holds objects");
     json_object_foreach(item, key, value)
     {
-        if (strcmp(key, "face") == 0)
-        {
-            if (!read_face(value, &out->face))
-                return refuse(
-                    run, path, index, key, "is a face of the cage, from 0");
-        }
-        else if (strcmp(key, "point") == 0)
-        {
-            has_point = true;
-            if (!read_vector(value, out->point))
-                return refuse(run, path, index, key, "is three numbers");
-        }
-        else if (strcmp(key, "direction") == 0)
-        {
-            out->has_direction = true;
-            if (!read_vector(value, out->direction))
-                return refuse(run, path, index, key, "is three numbers");
-        }
-        else if (strcmp(key, "radius") == 0)
-        {
-            if (!read_positive(value, &out->radius))
-                return refuse(run, path, index, key, "is a positive number");
-        }
-        else if (strcmp(key, "scale") == 0)
-        {
-            if (!read_positive(value, &out->scale))
-                return refuse(run, path, index, key, "is a positive number");
-        }
-        else if (strcmp(key, "material") == 0)
-        {
-            out->has_material = true;
-            out->material = json_number_value(value);
-            if (!json_is_number(value) ||
-                !(out->material >= 0.0 && out->material <= 1.0))
-                return refuse(run, path, index, key, "is a number from 0 to 1");
-        }
-        else if (strcmp(key, "exemplar") == 0)
+        const bool is_name = strcmp(key, "exemplar") == 0;
+        const char *wanted = is_name ? NULL : read_member(key, value, out);
+
+        if (is_name)
             OTX_TRY(read_exemplar(run, path, index, value, out));
-        else
-            return refuse(
-                run, path, index, key,
-                "is not known; there are face, point, radius, direction, "
-                "scale, material and exemplar");
+        if (wanted)
+            return refuse(run, path, index, key, wanted);
     }
-    if ((out->face >= 0) == has_point)
-        return refuse(run, path, index, "face", "or \"point\" is needed, one");
-    if (out->has_material && asks_for_exemplar(out))
-        return refuse(
-            run, path, index, "material",
-            "and \"exemplar\" say the same; give one");
-    if (!out->has_direction && out->scale == 0.0 && !out->has_material &&
-        !asks_for_exemplar(out))
-        return refuse(
-            run, path, index, "direction",
-            "or \"scale\", \"material\" or \"exemplar\" is needed");
-    return OSDTEX_OK;
+    return check_item(
+        run, path, index, json_object_get(item, "point") != NULL, out);
 }
 
 static otx_status

@@ -381,48 +381,6 @@ test_threads_change_nothing(void **state)
 }
 
 static void
-check_refusal(
-    otx_run *run, const otx_tileset_options *options, const char *words)
-{
-    otx_exemplar *exemplar = make_exemplar(run, 24, 1);
-    otx_tileset made;
-
-    exemplar->wrap_x = exemplar->wrap_y = false;
-    assert_int_not_equal(
-        otx_tileset_make(run, exemplar, options, &made), OSDTEX_OK);
-    if (!strstr(test_last_message(run), words))
-        fail_msg("'%s' lacks '%s'", test_last_message(run), words);
-}
-
-static void
-test_bad_options_are_refused(void **state)
-{
-    const otx_tileset_options good = {
-        .boundaries = 1, .corners = 1, .cell = 16, .gutter = 2};
-    const otx_tileset_edge edge = {{2.0, 2.0}, 0.0, 0.0};
-    otx_run *run = test_run_create();
-    otx_tileset_options o = good;
-
-    (void)state;
-    o.boundaries = 4;
-    check_refusal(run, &o, "1, 2 or 3 boundaries");
-    o = good;
-    o.cell = 24;
-    check_refusal(run, &o, "power of two");
-    o = good;
-    o.cell = 64;
-    check_refusal(run, &o, "larger picture");
-    o = good;
-    o.gutter = 4;
-    check_refusal(run, &o, "8 gutters");
-    o = good;
-    o.edge_count = 1;
-    o.edges = &edge;
-    check_refusal(run, &o, "edge template 1");
-    test_run_destroy(run);
-}
-
-static void
 test_triangles_are_refused(void **state)
 {
     otx_run *run = test_run_create();
@@ -473,7 +431,6 @@ main(int argc, char **argv)
         cmocka_unit_test(test_plain_levels_would_not_meet),
         cmocka_unit_test(test_pictures_can_be_swapped),
         cmocka_unit_test(test_threads_change_nothing),
-        cmocka_unit_test(test_bad_options_are_refused),
         cmocka_unit_test(test_triangles_are_refused),
     };
 

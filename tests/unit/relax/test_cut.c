@@ -1,57 +1,6 @@
 /* test_cut.c -- planted paths are found, small cases are solved exactly, and
  * nothing depends on threads. */
-#include "grid.h"
-
-#include "relax/cut.h"
-#include "relax/cut_cost.h"
-
-enum
-{
-    DENSITY = 8 /* texels per scene unit; faces are unit squares */
-};
-
-/* Offers the faces of the rectangle [x0, x1) x [y0, y1), turned by `angle` and
- * moved by `shift` texels. */
-static otx_offer
-offer_rectangle(
-    otx_arena *arena, const otx_surface *surface, int32_t nx,
-    const int32_t box[4], double angle, otx_vec2 shift)
-{
-    const otx_level *leaf = otx_surface_leaf(surface);
-    const int32_t count = (box[2] - box[0]) * (box[3] - box[1]);
-    int32_t *faces = OTX_NEW(arena, int32_t, count);
-    int32_t *first = OTX_NEW(arena, int32_t, count + 1);
-    otx_vec2 *uvs = OTX_NEW(arena, otx_vec2, 4 * count);
-    int32_t n = 0;
-
-    for (int32_t y = box[1]; y < box[3]; ++y)
-        for (int32_t x = box[0]; x < box[2]; ++x, ++n)
-        {
-            faces[n] = y * nx + x;
-            first[n] = 4 * n;
-            for (int k = 0; k < 4; ++k)
-            {
-                const otx_vec3 p = otx_vec3_load(
-                    surface->points, leaf->face_verts[4 * faces[n] + k]);
-
-                uvs[4 * n + k] = otx_vec2_add(
-                    shift, otx_vec2_mul(
-                               otx_vec2_polar(angle),
-                               (otx_vec2){DENSITY * p.x, DENSITY * p.y}));
-            }
-        }
-    first[count] = 4 * count;
-    return (otx_offer){count, faces, uvs, first, NULL, 0};
-}
-
-static otx_cut_options
-unit_options(void)
-{
-    otx_cut_options options = otx_cut_options_default();
-
-    options.texels_per_unit = DENSITY;
-    return options;
-}
+#include "cuts.h"
 
 enum
 {
@@ -208,35 +157,6 @@ a_border_goes_round_features(void **state)
     for (int32_t f = 0; f < NX * NY; ++f)
         assert_int_equal(labels[f], f % NX < planted(f / NX) ? 0 : 1);
     assert_int_equal(stats.rejected, 0);
-    test_run_destroy(run);
-}
-
-static void
-equal_offers_have_no_seams(void **state)
-{
-    otx_run *run = test_run_create();
-    const otx_surface *surface = test_grid_create(run->arena, 8, 8, 1.0);
-    const otx_exemplar *exemplar =
-        test_exemplar_create(run->arena, 64, 64, true, 4);
-    const int32_t all[4] = {0, 0, 8, 8};
-    const otx_offer offers[2] = {
-        offer_rectangle(run->arena, surface, 8, all, 0.0, (otx_vec2){1.5, 2.5}),
-        /* The same, one picture to the left. */
-        offer_rectangle(
-            run->arena, surface, 8, all, 0.0, (otx_vec2){-62.5, 2.5})};
-    const otx_cut_options options = unit_options();
-    int32_t labels[64];
-    otx_cut_stats stats;
-
-    (void)state;
-    for (int32_t f = 0; f < 64; ++f)
-        labels[f] = f % 2;
-    assert_int_equal(
-        otx_cut_run(
-            run, surface, exemplar, offers, 2, &options, labels, &stats),
-        OSDTEX_OK);
-    assert_true(stats.energy_before == 0.0 && stats.energy_after == 0.0);
-    assert_int_equal(stats.changed, 0);
     test_run_destroy(run);
 }
 
@@ -540,7 +460,6 @@ main(void)
         cmocka_unit_test(a_planted_path_is_cut_exactly),
         cmocka_unit_test(a_path_between_two_exemplars_is_cut_exactly),
         cmocka_unit_test(a_border_goes_round_features),
-        cmocka_unit_test(equal_offers_have_no_seams),
         cmocka_unit_test(two_labels_are_solved_exactly),
         cmocka_unit_test(energy_falls_and_labels_stay_within_their_offers),
         cmocka_unit_test(threads_do_not_change_the_labels),
