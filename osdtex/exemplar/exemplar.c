@@ -7,8 +7,8 @@
 #include "exemplar/exemplar.h"
 
 #include "colour/decoder.h"
+#include "exemplar/statistics.h"
 #include "exemplar/tileable.h"
-#include "image/texture.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,7 +23,6 @@ typedef struct row_result
 {
     int32_t bad_x; /* first texel that is not finite, -1 none */
     float low, high;
-    double sum[3], sum_sq, step_sq;
 } row_result;
 
 typedef struct build
@@ -299,88 +298,6 @@ build_views(build *b)
     return embed(b, &display, OTX_EMBEDDING_LAB, &out->lab);
 }
 
-/* ---- statistics ---- */
-
-typedef struct survey
-{
-    const otx_image *image;
-    row_result *rows;
-} survey;
-
-/* Deviations from the first texel: a constant picture sums to exact zeros. */
-static otx_status
-survey_row(void *context, int64_t y, otx_worker *worker)
-{
-    const survey *s = context;
-    const otx_image *image = s->image;
-    row_result r = {0};
-    (void)worker;
-
-    for (int32_t x = 0; x < image->width; ++x)
-    {
-        const float *texel = otx_image_at(image, x, (int32_t)y);
-
-        for (int k = 0; k < 3; ++k)
-        {
-            const double d = (double)texel[k] - (double)image->pixels[k];
-            const double right = x + 1 < image->width
-                                     ? (double)texel[k + 3] - (double)texel[k]
-                                     : 0.0;
-            const double above =
-                y + 1 < image->height
-                    ? (double)texel[k + 3 * (size_t)image->width] -
-                          (double)texel[k]
-                    : 0.0;
-
-            r.sum[k] += d;
-            r.sum_sq += d * d;
-            r.step_sq += right * right + above * above;
-        }
-    }
-    s->rows[y] = r;
-    return OSDTEX_OK;
-}
-
-/* sigma = sqrt(2 Var): the RMS distance of two texels drawn at random. */
-static otx_status
-measure(
-    otx_run *run, row_result *rows, const otx_image *image, double *sigma,
-    double *step)
-{
-    survey s = {image, rows};
-    row_result all = {0};
-    const double width = image->width;
-    const double height = image->height;
-    const double texels = width * height;
-
-    OTX_TRY(otx_pool_for(run->pool, image->height, survey_row, &s));
-    for (int32_t y = 0; y < image->height; ++y)
-    {
-        for (int k = 0; k < 3; ++k)
-            all.sum[k] += s.rows[y].sum[k];
-        all.sum_sq += s.rows[y].sum_sq;
-        all.step_sq += s.rows[y].step_sq;
-    }
-
-    double variance = all.sum_sq / texels;
-
-    for (int k = 0; k < 3; ++k)
-        variance -= all.sum[k] / texels * (all.sum[k] / texels);
-    *sigma = sqrt(2.0 * fmax(variance, 0.0));
-    *step =
-        sqrt(all.step_sq / ((width - 1.0) * height + width * (height - 1.0)));
-    return OSDTEX_OK;
-}
-
-static otx_status
-measure_both(otx_run *run, row_result *rows, otx_exemplar *e)
-{
-    if (!e->lab.pixels)
-        return OSDTEX_OK;
-    OTX_TRY(measure(run, rows, &e->match, &e->match_sigma, &e->match_step));
-    return measure(run, rows, &e->lab, &e->lab_sigma, &e->lab_step);
-}
-
 /* ---- decisions ---- */
 
 static otx_status
@@ -526,7 +443,7 @@ build_compared(build *b)
     }
     OTX_TRY(build_views(b));
     OTX_TRY(otx_progress(b->run, stage, 0.8));
-    OTX_TRY(measure_both(b->run, b->rows, out));
+    OTX_TRY(otx_exemplar_measure(b->run, out));
     return resolve_wrap(b);
 }
 
@@ -560,163 +477,4 @@ otx_exemplar_build(
     if (status != OSDTEX_OK)
         *out = (otx_exemplar){0};
     return status;
-}
-
-static otx_status
-crop(
-    otx_run *run, const otx_image *from, int32_t x, int32_t y, int32_t width,
-    int32_t height, otx_image *out)
-{
-    const size_t row = (size_t)width * (size_t)from->channels;
-
-    *out = (otx_image){width, height, from->channels, NULL};
-    if (!from->pixels)
-        return OSDTEX_OK;
-    OTX_TRY(
-        otx_image_create(run, run->arena, width, height, from->channels, out));
-    for (int32_t j = 0; j < height; ++j)
-        memcpy(
-            otx_image_at(out, 0, j), otx_image_at(from, x, y + j),
-            row * sizeof *out->pixels);
-    return OSDTEX_OK;
-}
-
-otx_status
-otx_exemplar_crop(
-    otx_run *run, const otx_exemplar *from, int32_t x, int32_t y, int32_t width,
-    int32_t height, otx_exemplar *out)
-{
-    const otx_arena_mark mark = otx_arena_here(run->scratch);
-    row_result *rows = OTX_ZNEW(run->scratch, row_result, height);
-    otx_exemplar made = *from;
-    otx_tileable test;
-
-    OTX_TRY(otx_run_ok(run));
-    OTX_TRY(crop(run, &from->linear, x, y, width, height, &made.linear));
-    OTX_TRY(crop(run, &from->match, x, y, width, height, &made.match));
-    OTX_TRY(crop(run, &from->lab, x, y, width, height, &made.lab));
-    OTX_TRY(otx_companions_crop(
-        run, &from->companions, from->linear.width,
-        (const int32_t[]){x, y, width, height}, &made.companions));
-    OTX_TRY(measure_both(run, rows, &made));
-    if (width < from->lab.width && made.lab.pixels)
-    {
-        OTX_TRY(otx_tileable_test(run, &made.lab, 0, &test));
-        made.wrap_x = test.tiles;
-    }
-    if (height < from->lab.height && made.lab.pixels)
-    {
-        OTX_TRY(otx_tileable_test(run, &made.lab, 1, &test));
-        made.wrap_y = test.tiles;
-    }
-    *out = made;
-    otx_arena_release(run->scratch, mark);
-    return OSDTEX_OK;
-}
-
-static otx_status
-rearrange(
-    otx_run *run, const otx_image *from, const int32_t *texels, otx_image *out)
-{
-    const size_t count = (size_t)from->width * (size_t)from->height;
-    const size_t channels = (size_t)from->channels;
-
-    *out = *from;
-    if (!from->pixels)
-        return OSDTEX_OK;
-    OTX_TRY(otx_image_create(
-        run, run->arena, from->width, from->height, from->channels, out));
-    for (size_t i = 0; i < count; ++i)
-        memcpy(
-            out->pixels + i * channels,
-            from->pixels + (size_t)texels[i] * channels,
-            channels * sizeof *out->pixels);
-    return OSDTEX_OK;
-}
-
-otx_status
-otx_exemplar_rearrange(
-    otx_run *run, const otx_exemplar *from, const int32_t *texels,
-    otx_exemplar *out)
-{
-    const otx_arena_mark mark = otx_arena_here(run->scratch);
-    row_result *rows = OTX_ZNEW(run->scratch, row_result, from->lab.height);
-    otx_exemplar made = *from;
-
-    OTX_TRY(otx_run_ok(run));
-    OTX_TRY(rearrange(run, &from->linear, texels, &made.linear));
-    OTX_TRY(rearrange(run, &from->match, texels, &made.match));
-    OTX_TRY(rearrange(run, &from->lab, texels, &made.lab));
-    OTX_TRY(otx_companions_rearrange(
-        run, &from->companions, from->linear.width, from->linear.height, texels,
-        &made.companions));
-    OTX_TRY(measure_both(run, rows, &made));
-    made.wrap_x = made.wrap_y = true;
-    *out = made;
-    otx_arena_release(run->scratch, mark);
-    return OSDTEX_OK;
-}
-
-/* One picture at another size. */
-typedef struct resizing
-{
-    const otx_texture *from;
-    otx_image *to;
-} resizing;
-
-static otx_status
-resize_row(void *context, int64_t y, otx_worker *worker)
-{
-    const resizing *r = context;
-    const otx_vec2 dx = {1.0 / r->to->width, 0.0};
-    const otx_vec2 dy = {0.0, 1.0 / r->to->height};
-
-    (void)worker;
-    for (int32_t x = 0; x < r->to->width; ++x)
-        otx_texture_filter(
-            r->from, (otx_vec2){(x + 0.5) * dx.x, ((double)y + 0.5) * dy.y}, dx,
-            dy, otx_image_at(r->to, x, (int32_t)y));
-    return OSDTEX_OK;
-}
-
-static otx_status
-resize(
-    otx_run *run, const otx_exemplar *e, const otx_image *from, int32_t width,
-    int32_t height, otx_image *out)
-{
-    otx_texture texture;
-    resizing r = {&texture, out};
-
-    *out = (otx_image){width, height, 3, NULL};
-    if (!from->pixels)
-        return OSDTEX_OK;
-    OTX_TRY(otx_texture_create(
-        run, run->scratch, from, e->wrap_x, e->wrap_y, &texture));
-    OTX_TRY(otx_image_create(run, run->arena, width, height, 3, out));
-    return otx_pool_for(run->pool, height, resize_row, &r);
-}
-
-otx_status
-otx_exemplar_resize(
-    otx_run *run, const otx_exemplar *from, int32_t width, int32_t height,
-    otx_exemplar *out)
-{
-    const otx_arena_mark mark = otx_arena_here(run->scratch);
-    row_result *rows = OTX_ZNEW(run->scratch, row_result, height);
-    otx_exemplar made = *from;
-
-    if (width < OTX_EXEMPLAR_MIN_SIDE || height < OTX_EXEMPLAR_MIN_SIDE)
-        return otx_fail(
-            run, OSDTEX_ERROR_LIMIT, stage,
-            (otx_where){from->source_path, 0, -1, -1},
-            "at its scale the picture has %d x %d texels of the first "
-            "exemplar's size, too few to texture with",
-            (int)width, (int)height);
-    OTX_TRY(otx_run_ok(run));
-    OTX_TRY(resize(run, from, &from->match, width, height, &made.match));
-    OTX_TRY(resize(run, from, &from->lab, width, height, &made.lab));
-    OTX_TRY(measure_both(run, rows, &made));
-    *out = made;
-    otx_arena_release(run->scratch, mark);
-    return OSDTEX_OK;
 }
