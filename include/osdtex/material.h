@@ -1,5 +1,18 @@
 /* material.h -- the files of a material: its colour and what else is known of
- * it, texel by texel. */
+ * it, texel by texel.
+ *
+ *     osdtex_exemplar_options options = osdtex_exemplar_options_default();
+ *     const osdtex_material_info *info;
+ *     osdtex_material *material;
+ *
+ *     osdtex_material_find(context, "textures/bricks", &material);
+ *     info = osdtex_material_describe(material);
+ *     options.maps = info->maps;
+ *     options.map_count = info->map_count;
+ *     osdtex_exemplar_read(context, info->color, &options, &exemplar);
+ *     osdtex_material_destroy(material);
+ *
+ * Names are looked at, files are not opened. A handle is immutable. */
 #ifndef OSDTEX_MATERIAL_H
 #define OSDTEX_MATERIAL_H
 
