@@ -40,7 +40,8 @@ typedef struct osdtex_textures osdtex_textures;
 /* What is baked, and where it goes. */
 typedef struct osdtex_textures_info
 {
-    int32_t texture_count; /* 1, the colour, and the extras asked for */
+    int32_t texture_count; /* the colour, the maps that its exemplar was read
+                            * with, and the extras asked for */
     int32_t tile_count;
     const int32_t *tiles; /* [tile_count] UDIM numbers, ascending: 1001 is the
                            * unit square */
@@ -59,12 +60,13 @@ typedef struct osdtex_textures_info
 /* One of the textures. */
 typedef struct osdtex_texture_info
 {
-    const char *name;        /* "color", "patch", "uv", "stretch", "seam",
-                              * "source" */
+    const char *name;        /* "color"; "normal", "roughness", "height",
+                              * "metalness", "occlusion"; "patch", "uv",
+                              * "stretch", "seam", "source" */
     const char *color_space; /* of its linear values; NULL: no colours */
     const char *summary;     /* one sentence: what its channels hold */
-    int32_t channels;        /* 3, or 4: colour with alpha, by which it is
-                              * multiplied, and the source */
+    int32_t channels;        /* 1; 3; or 4: the source, and colour with alpha,
+                              * by which it is multiplied */
     int32_t reserved;
 } osdtex_texture_info;
 

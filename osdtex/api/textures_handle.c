@@ -30,6 +30,55 @@ describe(const otx_bake *bake, const otx_exemplar *exemplar)
     };
 }
 
+static osdtex_texture_info
+describe_map(int32_t map)
+{
+    static const char *const summaries[OTX_COMPANION_COUNT] = {
+        "Normal in the frame of the UVs, y up, as (n + 1) / 2.",
+        "Roughness, 0 a mirror.", "Height above the surface, in scene units.",
+        "Metalness, 0 to 1.", "Ambient occlusion, 1 where nothing occludes."};
+    const otx_companion_kind kind = (otx_companion_kind)map;
+
+    return (osdtex_texture_info){
+        .name = otx_companion_name(kind),
+        .summary = summaries[map],
+        .channels = otx_companion_channels(kind),
+    };
+}
+
+static void
+add_texture(
+    osdtex_textures *handle, otx_textures_source source,
+    osdtex_texture_info info)
+{
+    const int32_t i = handle->info.texture_count++;
+
+    handle->sources[i] = source;
+    handle->textures[i] = info;
+}
+
+static otx_status
+add_kind(
+    otx_run *run, const osdtex_mapping *mapping, const otx_bake_options *how,
+    osdtex_textures *handle)
+{
+    otx_bake *bake = &handle->bakes[how->kind];
+
+    OTX_TRY(otx_bake_create(
+        run, &mapping->mapping, mapping->exemplars, &handle->layout, how,
+        bake));
+    add_texture(
+        handle, (otx_textures_source){bake, -1},
+        describe(bake, &mapping->exemplars[0]));
+    for (int32_t k = 0;
+         bake->maps.texels.channels > 0 && k < OTX_COMPANION_COUNT; ++k)
+        if (bake->maps.first[k] >= 0)
+            add_texture(
+                handle, (otx_textures_source){bake, k}, describe_map(k));
+    return OSDTEX_OK;
+}
+
+/* The colour, the maps that lie on it, and the extras. */
 static otx_status
 add_textures(
     otx_run *run, const osdtex_mapping *mapping,
@@ -38,17 +87,12 @@ add_textures(
     for (int kind = 0; kind < OTX_TEXEL_KIND_COUNT; ++kind)
     {
         const otx_bake_options how = {
-            .kind = (otx_texel_kind)kind, .seam_blend = ours->seam_blend};
-        const int32_t i = handle->info.texture_count;
+            .kind = (otx_texel_kind)kind,
+            .seam_blend = ours->seam_blend,
+            .maps = kind == OTX_TEXEL_COLOR};
 
-        if (!otx_bake_handle_has(ours, how.kind))
-            continue;
-        OTX_TRY(otx_bake_create(
-            run, &mapping->mapping, mapping->exemplars, &handle->layout, &how,
-            &handle->bakes[i]));
-        handle->textures[i] =
-            describe(&handle->bakes[i], &mapping->exemplars[0]);
-        ++handle->info.texture_count;
+        if (otx_bake_handle_has(ours, how.kind))
+            OTX_TRY(add_kind(run, mapping, &how, handle));
     }
     return OSDTEX_OK;
 }
@@ -138,12 +182,22 @@ osdtex_textures_destroy(osdtex_textures *textures)
 
 /* ---- a level in one piece ------------------------------------------------ */
 
+/* What is kept of each block, and where. */
+typedef struct keeper
+{
+    otx_image *image;
+    int32_t map; /* -1 the bake's own */
+} keeper;
+
 static void
 take_level(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 {
+    const keeper *k = user;
+    const otx_bake_block kept = otx_bake_block_of(block, k->map);
+
     (void)slot;
     (void)lane;
-    otx_bake_copy(block, user);
+    otx_bake_copy(&kept, k->image);
 }
 
 static otx_status
@@ -183,17 +237,18 @@ bake_part(
     otx_run *run, const osdtex_textures *textures,
     const osdtex_texture_part *part, otx_image *image)
 {
+    const otx_textures_source *source = &textures->sources[part->texture];
+    keeper kept = {image, source->map};
     const otx_bake_sink sink = {
         .take = take_level,
         .put = put_nothing,
-        .user = image,
+        .user = &kept,
         .first_level = part->level,
         .level_count = 1,
         .share = 1.0};
 
     return otx_bake_tile(
-        run, &textures->bakes[part->texture], textures->first_tile + part->tile,
-        &sink);
+        run, source->bake, textures->first_tile + part->tile, &sink);
 }
 
 static otx_status

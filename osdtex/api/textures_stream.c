@@ -14,6 +14,7 @@ typedef struct stream
     osdtex_bake_block blocks[OTX_BAKE_SLOTS];
     float *pixels[OTX_BAKE_SLOTS];
     osdtex_bake_block common; /* what all of a tile share */
+    int32_t map;              /* of the bake, that they are of; -1 none */
 } stream;
 
 /* Kept until its turn comes. */
@@ -22,6 +23,7 @@ take_block(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 {
     stream *s = user;
     osdtex_bake_block *kept = &s->blocks[slot];
+    const otx_bake_block taken = otx_bake_block_of(block, s->map);
     const size_t row = (size_t)block->width * (size_t)s->common.channels;
 
     (void)lane;
@@ -35,8 +37,8 @@ take_block(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
     kept->height = block->height;
     for (int32_t y = 0; y < block->height; ++y)
         memcpy(
-            s->pixels[slot] + (size_t)y * row,
-            block->pixels + y * block->stride, row * sizeof(float));
+            s->pixels[slot] + (size_t)y * row, taken.pixels + y * taken.stride,
+            row * sizeof(float));
 }
 
 static otx_status
@@ -95,13 +97,15 @@ stream_tile(
     stream *s = how->user;
     otx_status status;
 
+    s->map = textures->sources[texture].map;
     s->common.texture = texture;
     s->common.name = textures->textures[texture].name;
     s->common.channels = textures->textures[texture].channels;
     s->common.tile = tile;
     s->common.udim = textures->info.tiles[tile];
     status = otx_bake_tile(
-        s->run, &textures->bakes[texture], textures->first_tile + tile, how);
+        s->run, textures->sources[texture].bake, textures->first_tile + tile,
+        how);
     how->begin += how->share;
     return status;
 }

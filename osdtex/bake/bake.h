@@ -82,6 +82,20 @@ otx_status otx_bake_tile(
 /* Puts a block into a picture of its level. */
 void otx_bake_copy(const otx_bake_block *block, const otx_image *image);
 
+/* The same block of one of the maps that are baked with the colour; of -1 the
+ * block itself. */
+static inline otx_bake_block
+otx_bake_block_of(const otx_bake_block *block, int32_t map)
+{
+    otx_bake_block result = *block;
+
+    if (map < 0)
+        return result;
+    result.pixels = block->maps[map];
+    result.stride = block->map_strides[map];
+    return result;
+}
+
 /* "color", "patch", "uv", "stretch", "seam", "source". */
 const char *otx_bake_kind_name(otx_texel_kind kind);
 
