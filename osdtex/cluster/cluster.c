@@ -52,6 +52,24 @@ otx_cluster_children(
     return OSDTEX_OK;
 }
 
+static int
+compare_index(const void *a, const void *b)
+{
+    const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* Faces of a region that is divided do not, see tree.h. */
+static bool
+ascends(const int32_t *values, int32_t count)
+{
+    for (int32_t i = 1; i < count; ++i)
+        if (values[i - 1] > values[i])
+            return false;
+    return true;
+}
+
 int32_t *
 otx_cluster_leaves(
     otx_arena *arena, const otx_surface *surface, const otx_cluster *cluster,
@@ -78,15 +96,9 @@ otx_cluster_leaves(
         for (int32_t f = first; f < end; ++f)
             leaves[(*count)++] = f;
     }
+    if (!ascends(cluster->faces, cluster->face_count))
+        qsort(leaves, (size_t)*count, sizeof *leaves, compare_index);
     return leaves;
-}
-
-static int
-compare_index(const void *a, const void *b)
-{
-    const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
-
-    return (x > y) - (x < y);
 }
 
 /* Distinct values of a list that is sorted in place. `*twice` says whether

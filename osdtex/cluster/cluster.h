@@ -15,7 +15,7 @@ typedef struct otx_cluster
 {
     int32_t level; /* that the faces belong to */
     int32_t face_count;
-    const int32_t *faces; /* ascending */
+    const int32_t *faces; /* ascending, but for those of divided regions */
     double area;          /* scene units squared */
     int32_t node; /* in the tree that it is from (tree.h); -1 of a face below */
 } otx_cluster;

@@ -45,6 +45,8 @@ hang(
                 .area = c->area,
                 .target = target,
             }));
+        for (int32_t k = 0; k < c->face_count; ++k)
+            tree->place[tree->faces[at + k]] = at + k;
         at += c->face_count;
         if (c->face_count > 1 && tree->face_level <= level)
             tree->face_level = level + 1;
@@ -118,7 +120,10 @@ otx_cluster_tree_create(
     }
     out->face_level = 1;
     out->faces = OTX_NEW(run->arena, int32_t, out->face_count);
+    out->place = OTX_NEW(run->arena, int32_t, dual->level->face_count);
     OTX_TRY(otx_run_ok(run));
+    for (int32_t f = 0; f < dual->level->face_count; ++f)
+        out->place[f] = -1;
     OTX_TRY(append(
         run, out,
         (otx_cluster_node){
@@ -144,10 +149,8 @@ otx_cluster_tree_node(const otx_cluster_tree *tree, int32_t node)
         tree->base, n->end - n->first, tree->faces + n->first, n->area, node};
 }
 
-/* Divides a region. Its own range of faces is what they are copied from: those
- * of the list lie elsewhere, or are single and where they were. */
-static otx_status
-divide(otx_run *run, otx_cluster_tree *tree, int32_t node)
+otx_status
+otx_cluster_tree_grow(otx_run *run, otx_cluster_tree *tree, int32_t node)
 {
     const otx_cluster whole = otx_cluster_tree_node(tree, node);
     const otx_cluster_node *n = &tree->nodes[node];
@@ -155,8 +158,9 @@ divide(otx_run *run, otx_cluster_tree *tree, int32_t node)
     const double target = 0.5 * n->target;
     otx_cluster_list list;
 
-    OTX_TRY(
-        otx_cluster_grow(run, &tree->how, &whole, 0.5 * whole.area, 2, &list));
+    if (n->child_count > 0)
+        return OSDTEX_OK;
+    OTX_TRY(otx_cluster_grow(run, &tree->how, &whole, target, 2, &list));
     tree->nodes[node].first_child = tree->count;
     return hang(run, tree, node, level, target, &list, first);
 }
@@ -184,8 +188,7 @@ otx_cluster_tree_children(
 {
     if (cluster->face_count == 1)
         return otx_cluster_children(run, tree->surface, cluster, out);
-    if (tree->nodes[cluster->node].child_count == 0)
-        OTX_TRY(divide(run, tree, cluster->node));
+    OTX_TRY(otx_cluster_tree_grow(run, tree, cluster->node));
     return otx_cluster_tree_list(run, tree, cluster->node, out);
 }
 

@@ -44,6 +44,7 @@ typedef struct otx_cluster_tree
     otx_cluster_node *nodes; /* [count]; 0 the whole */
     int32_t *faces;          /* ascending within what has no children */
     int32_t face_count;      /* that are covered: no holes */
+    int32_t *place; /* [base face_count] where in faces; -1 not covered */
 } otx_cluster_tree;
 
 /* A part of the surface whose regions are to have a size of their own. */
@@ -66,6 +67,10 @@ otx_status otx_cluster_tree_create(
 /* A node as a cluster. Its faces move when its children are grown; the set of
  * them stays. */
 otx_cluster otx_cluster_tree_node(const otx_cluster_tree *tree, int32_t node);
+
+/* Divides a region, if it is not divided yet. MEMORY, CANCELLED. */
+otx_status
+otx_cluster_tree_grow(otx_run *run, otx_cluster_tree *tree, int32_t node);
 
 /* The children that a node has, as clusters. In run->arena. MEMORY. */
 otx_status otx_cluster_tree_list(

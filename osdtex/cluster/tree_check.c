@@ -76,6 +76,8 @@ check_faces(const otx_cluster_tree *tree, int32_t *seen)
             return "a face is a hole, or none";
         if (seen[f] == -2)
             return "a face comes twice";
+        if (tree->place[f] != i)
+            return "a face is not where it is said to be";
         seen[f] = -2;
     }
     return NULL;

@@ -282,6 +282,43 @@ half_tangent(otx_vec2 a, otx_vec2 b)
     return otx_vec2_cross(a, b) / fmax(below, 1e-300);
 }
 
+/* Those on the side that is nearest to x, of its nearest point; even ones in a
+ * polygon without sides. */
+static void
+nearest_side(
+    const otx_vec2 *corners, int32_t count, otx_vec2 x, double *weights)
+{
+    double least = INFINITY, along = 0.0, perimeter = 0.0;
+    int32_t best = 0;
+
+    for (int32_t i = 0; i < count; ++i)
+    {
+        const otx_vec2 side =
+            otx_vec2_sub(corners[(i + 1) % count], corners[i]);
+        const otx_vec2 way = otx_vec2_sub(x, corners[i]);
+        const double length_sq = otx_vec2_dot(side, side);
+        const double part =
+            length_sq > 0.0
+                ? fmin(1.0, fmax(0.0, otx_vec2_dot(way, side) / length_sq))
+                : 0.0;
+        const double away =
+            otx_vec2_length(otx_vec2_sub(way, otx_vec2_scale(part, side)));
+
+        weights[i] = 0.0;
+        perimeter += length_sq;
+        if (away < least)
+        {
+            least = away;
+            along = part;
+            best = i;
+        }
+    }
+    weights[best] = 1.0 - along;
+    weights[(best + 1) % count] += along;
+    for (int32_t i = 0; i < count && perimeter == 0.0; ++i)
+        weights[i] = 1.0 / count;
+}
+
 void
 otx_polygon_coordinates(
     const otx_vec2 *corners, int32_t count, otx_vec2 x, double *weights)
@@ -303,8 +340,7 @@ otx_polygon_coordinates(
      * outside, or a polygon without area. */
     if (!(fabs(sum) > 1e-12) || !(fabs(sum) < 1e12))
     {
-        for (int32_t i = 0; i < count; ++i)
-            weights[i] = 1.0 / count;
+        nearest_side(corners, count, x, weights);
         return;
     }
     for (int32_t i = 0; i < count; ++i)

@@ -1,235 +1,26 @@
-/* recursive.c -- patches laid out below their control polygons.
- *
- * The paper places a vertex on an edge by barycentric coordinates in the whole
- * control polygon, gets slightly different places from the two sides, and
- * averages. Here it is placed by the edge's ends alone: with m seen along the
- * mean normal of the three, z = (m - a) / (b - a) as complex numbers, and in
- * texture space t_m = t_a + z (t_b - t_a). Both sides get the same place, and
- * a neighbour laid against the edge meets it at every vertex. */
+/* recursive.c -- a piece and those beyond its sides, each flattened alone, as
+ * one chart. */
 #include "flatten/recursive.h"
 
 #include "flatten/chart_check.h"
-#include "flatten/descent.h"
-#include "flatten/polygon.h"
+#include "flatten/piece.h"
 
 #include <assert.h>
-
-/* -- one patch ----------------------------------------------------------- */
-
-/* The leaves below one face, flattened by themselves. */
-typedef struct piece
-{
-    const otx_chart_request *request;
-    int32_t level, face;
-    int32_t first, end; /* leaf faces */
-    int32_t vert_count;
-    int32_t *verts;   /* [vert_count] leaf vertices */
-    int32_t *corners; /* local, from leaf->face_first[first] on */
-    otx_vec2 *flat;   /* [vert_count] texels */
-    double *value;    /* [vert_count] position values; NULL for the core */
-    const int32_t *slot;
-    otx_vec2 *polygon; /* room for the corners of any face below, ... */
-    double *weights;   /* ... and for their coordinates */
-} piece;
-
-static otx_vec3
-point_of(const piece *p, int32_t vert)
-{
-    return otx_vec3_scale(
-        p->request->texels, otx_vec3_load(p->request->surface->points, vert));
-}
-
-/* x and y of a plane that is seen from the tip of its normal. */
-static void
-plane_axes(otx_vec3 normal, otx_vec3 *x, otx_vec3 *y)
-{
-    const otx_vec3 helper =
-        fabs(normal.x) < 0.6 ? (otx_vec3){1, 0, 0} : (otx_vec3){0, 1, 0};
-
-    *x = otx_vec3_unit(otx_vec3_cross(helper, normal));
-    *y = otx_vec3_cross(normal, *x);
-}
-
-/* See the head of the file. Case 2 of the paper. */
-static void
-place_edge(void *context, int32_t born, int32_t a, int32_t b)
-{
-    const piece *p = context;
-    const float *normals = p->request->surface->normals;
-    const otx_vec3 normal = otx_vec3_unit(otx_vec3_add(
-        otx_vec3_load(normals, born),
-        otx_vec3_add(otx_vec3_load(normals, a), otx_vec3_load(normals, b))));
-    const otx_vec3 edge = otx_vec3_sub(point_of(p, b), point_of(p, a));
-    const otx_vec3 way = otx_vec3_sub(point_of(p, born), point_of(p, a));
-    const otx_vec2 from = p->flat[p->slot[a]], to = p->flat[p->slot[b]];
-    otx_vec3 x, y;
-    otx_vec2 e, m, z = {0.5, 0.0};
-    double length_sq;
-
-    plane_axes(normal, &x, &y);
-    e = (otx_vec2){otx_vec3_dot(edge, x), otx_vec3_dot(edge, y)};
-    m = (otx_vec2){otx_vec3_dot(way, x), otx_vec3_dot(way, y)};
-    length_sq = otx_vec2_dot(e, e);
-    /* An edge that stands upright on the plane has no direction in it. */
-    if (length_sq > 1e-6 * otx_vec3_dot(edge, edge))
-        z = otx_vec2_scale(
-            1.0 / length_sq, otx_vec2_mul(m, (otx_vec2){e.x, -e.y}));
-    p->flat[p->slot[born]] =
-        otx_vec2_add(from, otx_vec2_mul(z, otx_vec2_sub(to, from)));
-}
-
-/* Twice the vector area of a polygon. */
-static otx_vec3
-vector_area(const piece *p, const int32_t *corners, int32_t count)
-{
-    const otx_vec3 origin = point_of(p, corners[0]);
-    otx_vec3 sum = {0, 0, 0};
-
-    for (int32_t k = 1; k + 1 < count; ++k)
-        sum = otx_vec3_add(
-            sum, otx_vec3_cross(
-                     otx_vec3_sub(point_of(p, corners[k]), origin),
-                     otx_vec3_sub(point_of(p, corners[k + 1]), origin)));
-    return sum;
-}
-
-/* In the middle of a face, seen along the face's mean normal. Case 3. */
-static void
-place_inside(void *context, int32_t born, const int32_t *corners, int32_t count)
-{
-    const piece *p = context;
-    const otx_vec3 middle = point_of(p, born);
-    otx_vec2 sum = {0, 0};
-    otx_vec3 x, y;
-
-    plane_axes(otx_vec3_unit(vector_area(p, corners, count)), &x, &y);
-    for (int32_t k = 0; k < count; ++k)
-    {
-        const otx_vec3 d = otx_vec3_sub(point_of(p, corners[k]), middle);
-
-        p->polygon[k] = (otx_vec2){otx_vec3_dot(d, x), otx_vec3_dot(d, y)};
-    }
-    otx_polygon_coordinates(p->polygon, count, (otx_vec2){0, 0}, p->weights);
-    for (int32_t k = 0; k < count; ++k)
-        sum = otx_vec2_add(
-            sum, otx_vec2_scale(p->weights[k], p->flat[p->slot[corners[k]]]));
-    p->flat[p->slot[born]] = sum;
-}
-
-/* Numbers the vertices below the face; leaves the numbers in vert_slot. */
-static otx_status
-number_piece(piece *p, otx_chart_space *space, otx_arena *scratch)
-{
-    const otx_level *leaf = p->request->leaves->level;
-    int32_t first, count;
-
-    otx_surface_leaves(
-        p->request->surface, p->level, p->face, &p->first, &p->end);
-    first = leaf->face_first[p->first];
-    count = leaf->face_first[p->end] - first;
-    p->verts = OTX_NEW(scratch, int32_t, count);
-    p->corners = OTX_NEW(scratch, int32_t, count);
-    p->slot = space->vert_slot;
-    if (!p->verts || !p->corners)
-        return OSDTEX_ERROR_MEMORY;
-    for (int32_t c = 0; c < count; ++c)
-    {
-        const int32_t v = leaf->face_verts[first + c];
-
-        if (space->vert_slot[v] < 0)
-        {
-            space->vert_slot[v] = p->vert_count;
-            p->verts[p->vert_count++] = v;
-        }
-        p->corners[c] = space->vert_slot[v];
-    }
-    p->flat = OTX_NEW(scratch, otx_vec2, p->vert_count);
-    return p->flat ? OSDTEX_OK : OSDTEX_ERROR_MEMORY;
-}
-
-static otx_status
-flatten_piece(piece *p, otx_arena *scratch)
-{
-    const otx_surface *surface = p->request->surface;
-    const otx_level *level = &surface->levels[p->level];
-    const int32_t *corners = level->face_verts + level->face_first[p->face];
-    const int32_t count = otx_level_face_size(level, p->face);
-    const otx_descent visitor = {place_edge, place_inside, p};
-    otx_vec3 *points = OTX_NEW(scratch, otx_vec3, count);
-
-    /* Faces further down are quads or triangles. */
-    p->polygon = OTX_NEW(scratch, otx_vec2, count > 4 ? count : 4);
-    p->weights = OTX_NEW(scratch, double, count > 4 ? count : 4);
-    if (!points || !p->polygon || !p->weights)
-        return OSDTEX_ERROR_MEMORY;
-    for (int32_t k = 0; k < count; ++k)
-        points[k] = point_of(p, corners[k]);
-    OTX_TRY(otx_polygon_layout(
-        scratch, points, count, otx_vec3_unit(vector_area(p, corners, count)),
-        p->polygon));
-    for (int32_t k = 0; k < count; ++k)
-        p->flat[p->slot[corners[k]]] = p->polygon[k];
-    otx_descent_walk(surface, p->level, p->face, &visitor);
-    return OSDTEX_OK;
-}
-
-/* v(q) = 1 - M_qa - M_qb of the edge (a, b): 0 there, 1 at other corners. */
-static otx_status
-value_piece(piece *p, int32_t edge, otx_arena *scratch)
-{
-    const otx_surface *surface = p->request->surface;
-    const otx_level *level = &surface->levels[p->level];
-    const int32_t *ends = level->edge_verts + 2 * (size_t)edge;
-
-    p->value = OTX_NEW(scratch, double, p->vert_count);
-    if (!p->value)
-        return OSDTEX_ERROR_MEMORY;
-    for (int32_t c = level->face_first[p->face];
-         c < level->face_first[p->face + 1]; ++c)
-    {
-        const int32_t v = level->face_verts[c];
-
-        p->value[p->slot[v]] = v == ends[0] || v == ends[1] ? 0.0 : 1.0;
-    }
-    otx_descent_average(surface, p->level, p->face, p->slot, p->value);
-    return OSDTEX_OK;
-}
-
-/*   edge  of the level, for position values; -1 none */
-static otx_status
-make_piece(
-    const otx_chart_request *request, int32_t level, int32_t face, int32_t edge,
-    otx_chart_space *space, otx_arena *scratch, piece *out)
-{
-    otx_status status;
-
-    *out = (piece){.request = request, .level = level, .face = face};
-    status = number_piece(out, space, scratch);
-    if (status == OSDTEX_OK)
-        status = flatten_piece(out, scratch);
-    if (status == OSDTEX_OK && edge >= 0)
-        status = value_piece(out, edge, scratch);
-    for (int32_t i = 0; i < out->vert_count; ++i)
-        space->vert_slot[out->verts[i]] = -1;
-    return status;
-}
-
-/* -- core and collar ----------------------------------------------------- */
 
 /* Room for all leaves of the pieces. */
 static otx_status
 allocate_chart(
-    const piece *pieces, int32_t count, otx_arena *arena, otx_chart *chart)
+    const otx_piece *pieces, int32_t count, otx_arena *arena, otx_chart *chart)
 {
-    const otx_level *leaf = pieces[0].request->leaves->level;
     int64_t faces = 0, verts = 0, corners = 0;
 
     for (int32_t i = 0; i < count; ++i)
     {
-        faces += pieces[i].end - pieces[i].first;
+        if (pieces[i].corner_count < 3)
+            continue;
+        faces += pieces[i].leaf_count;
         verts += pieces[i].vert_count;
-        corners +=
-            leaf->face_first[pieces[i].end] - leaf->face_first[pieces[i].first];
+        corners += pieces[i].first[pieces[i].leaf_count];
     }
     chart->faces = OTX_NEW(arena, int32_t, faces);
     chart->first = OTX_NEW(arena, int32_t, faces + 1);
@@ -258,20 +49,17 @@ add_vert(otx_chart *chart, int32_t vert, otx_vec2 at, double reach)
 
 /* Puts the core's vertices first, in order, and all its faces. */
 static void
-add_core(otx_chart *chart, const piece *p)
+add_core(otx_chart *chart, const otx_piece *p)
 {
-    const otx_level *leaf = p->request->leaves->level;
-    const int32_t start = leaf->face_first[p->first];
-
     for (int32_t i = 0; i < p->vert_count; ++i)
         add_vert(chart, p->verts[i], p->flat[i], 0.0);
-    for (int32_t f = p->first; f < p->end; ++f)
+    for (int32_t f = 0; f < p->leaf_count; ++f)
     {
         const int32_t i = chart->face_count++;
 
-        chart->faces[i] = f;
+        chart->faces[i] = p->leaves[f];
         chart->reach[i] = 0.0f;
-        chart->first[i + 1] = leaf->face_first[f + 1] - start;
+        chart->first[i + 1] = p->first[f + 1];
         for (int32_t c = chart->first[i]; c < chart->first[i + 1]; ++c)
             chart->corners[c] = p->corners[c];
     }
@@ -280,7 +68,7 @@ add_core(otx_chart *chart, const piece *p)
 
 /* Moves the piece so that its copy of the edge lies on the core's. */
 static void
-lay_against(piece *p, const otx_vec2 target[2], const otx_vec2 own[2])
+lay_against(otx_piece *p, const otx_vec2 target[2], const otx_vec2 own[2])
 {
     const otx_vec2 from = otx_vec2_sub(own[1], own[0]);
     const otx_vec2 to = otx_vec2_sub(target[1], target[0]);
@@ -300,7 +88,7 @@ lay_against(piece *p, const otx_vec2 target[2], const otx_vec2 own[2])
  * exactly 0, being made of halves of 0), its own elsewhere. */
 static int32_t
 chart_vert(
-    otx_chart *chart, const otx_chart_space *space, const piece *p,
+    otx_chart *chart, const otx_chart_space *space, const otx_piece *p,
     int32_t local, double size, int32_t *map)
 {
     const int32_t core = space->vert_slot[p->verts[local]];
@@ -317,21 +105,19 @@ chart_vert(
 /* Adds the faces of a neighbour that reach into the collar. */
 static otx_status
 add_collar(
-    otx_chart *chart, otx_chart_space *space, const piece *p, double size,
+    otx_chart *chart, otx_chart_space *space, const otx_piece *p, double size,
     double collar, otx_arena *scratch)
 {
-    const otx_level *leaf = p->request->leaves->level;
-    const int32_t start = leaf->face_first[p->first];
     int32_t *map = OTX_NEW(scratch, int32_t, p->vert_count);
 
     if (!map)
         return OSDTEX_ERROR_MEMORY;
     for (int32_t i = 0; i < p->vert_count; ++i)
         map[i] = -1;
-    for (int32_t f = p->first; f < p->end; ++f)
+    for (int32_t l = 0; l < p->leaf_count; ++l)
     {
-        const int32_t first = leaf->face_first[f] - start;
-        const int32_t end = leaf->face_first[f + 1] - start;
+        const int32_t f = p->leaves[l];
+        const int32_t first = p->first[l], end = p->first[l + 1];
         const int32_t i = chart->face_count;
         double nearest = INFINITY, sum = 0.0;
         int32_t n = chart->first[i];
@@ -355,16 +141,15 @@ add_collar(
     return OSDTEX_OK;
 }
 
-/* Lays a neighbour against the core's edge k and adds it. The core's vertices
+/* Lays a neighbour against a side of the core and adds it. The core's vertices
  * have their chart numbers in vert_slot. */
 static otx_status
 join(
-    otx_chart *chart, otx_chart_space *space, const piece *core, int32_t edge,
-    piece *p, double size, otx_arena *scratch)
+    otx_chart *chart, otx_chart_space *space, const otx_piece *core,
+    const otx_side *side, otx_piece *p, double size, otx_arena *scratch)
 {
     const otx_chart_request *request = core->request;
-    const int32_t *ends =
-        request->surface->levels[core->level].edge_verts + 2 * (size_t)edge;
+    const int32_t *ends = side->ends;
     otx_vec2 own[2] = {{0, 0}, {0, 0}}, target[2];
 
     for (int32_t i = 0; i < p->vert_count; ++i)
@@ -406,19 +191,19 @@ judge(otx_chart *chart, const otx_chart_request *request)
 
 /* Size of the patch, texels: what a position value of 1 stands for. */
 static double
-patch_size(const otx_chart_request *request, const piece *p)
+patch_size(const otx_chart_request *request, const otx_piece *p)
 {
     double area = 0.0;
 
-    for (int32_t f = p->first; f < p->end; ++f)
-        area += request->leaves->areas[f];
+    for (int32_t i = 0; i < p->leaf_count; ++i)
+        area += request->leaves->areas[p->leaves[i]];
     return request->texels * sqrt(area);
 }
 
 static otx_status
 assemble(
-    const piece *core, piece *pieces, const int32_t *edges, int32_t count,
-    otx_chart_space *space, otx_arena *scratch, otx_chart *out)
+    const otx_piece *core, otx_piece *pieces, const otx_side *sides,
+    int32_t count, otx_chart_space *space, otx_arena *scratch, otx_chart *out)
 {
     const double size = patch_size(core->request, core);
     otx_status status = OSDTEX_OK;
@@ -427,7 +212,9 @@ assemble(
     for (int32_t i = 0; i < core->vert_count; ++i)
         space->vert_slot[core->verts[i]] = i;
     for (int32_t i = 0; i < count && status == OSDTEX_OK; ++i)
-        status = join(out, space, core, edges[i], &pieces[i], size, scratch);
+        if (pieces[i].corner_count >= 3)
+            status =
+                join(out, space, core, &sides[i], &pieces[i], size, scratch);
     for (int32_t i = 0; i < core->vert_count; ++i)
         space->vert_slot[core->verts[i]] = -1;
     for (int32_t i = 0; i < out->face_count; ++i)
@@ -437,35 +224,31 @@ assemble(
 
 otx_status
 otx_recursive_build(
-    const otx_chart_request *request, int32_t level, int32_t face,
-    otx_chart_space *space, otx_arena *scratch, otx_arena *arena,
-    otx_chart *out)
+    const otx_chart_request *request, const otx_controls *controls,
+    const otx_cluster *cluster, otx_chart_space *space, otx_arena *scratch,
+    otx_arena *arena, otx_chart *out)
 {
-    const otx_level *here = &request->surface->levels[level];
-    const int32_t sides = otx_level_face_size(here, face);
-    piece *pieces = OTX_NEW(scratch, piece, sides + 1);
-    int32_t *edges = OTX_NEW(scratch, int32_t, sides);
-    int32_t count = 0;
+    otx_piece core, *pieces;
+    otx_side *sides;
+    int32_t count;
 
-    *out = (otx_chart){0};
-    if (!pieces || !edges)
+    *out = (otx_chart){.distortion = INFINITY, .worst = INFINITY};
+    OTX_TRY(otx_piece_make(
+        request, controls, cluster, NULL, space, scratch, &core));
+    if (core.corner_count < 3)
+        return OSDTEX_OK;
+    OTX_TRY(otx_piece_sides(&core, scratch, &sides, &count));
+    pieces = OTX_NEW(scratch, otx_piece, count + 1);
+    if (!pieces)
         return OSDTEX_ERROR_MEMORY;
-    OTX_TRY(make_piece(request, level, face, -1, space, scratch, &pieces[0]));
-    for (int32_t k = 0; k < sides; ++k)
-    {
-        const int32_t next = otx_level_neighbour(here, face, k);
-
-        if (next < 0 || here->face_hole[next])
-            continue;
-        edges[count] = here->face_edges[here->face_first[face] + k];
-        OTX_TRY(make_piece(
-            request, level, next, edges[count], space, scratch,
-            &pieces[count + 1]));
-        ++count;
-    }
+    pieces[0] = core;
+    for (int32_t k = 0; k < count; ++k)
+        OTX_TRY(otx_piece_make(
+            request, controls, &sides[k].beyond, &sides[k], space, scratch,
+            &pieces[k + 1]));
     OTX_TRY(allocate_chart(pieces, count + 1, arena, out));
     OTX_TRY(
-        assemble(&pieces[0], pieces + 1, edges, count, space, scratch, out));
+        assemble(&pieces[0], pieces + 1, sides, count, space, scratch, out));
     judge(out, request);
     assert(!otx_chart_check(out, request->surface));
     return OSDTEX_OK;

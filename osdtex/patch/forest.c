@@ -196,6 +196,9 @@ otx_forest_start(otx_mosaic *m)
     OTX_TRY(otx_cluster_tree_create(
         m->job.run, m->job.surface, dual, BEND, parts, count, &m->forest.tree));
     otx_arena_release(m->job.run->scratch, mark);
+    if (m->job.settings.flatten == OTX_PATCH_RECURSIVE && !m->job.given)
+        OTX_TRY(otx_controls_find(
+            m->job.run, &m->forest.tree, &m->forest.controls));
     OTX_TRY(otx_cluster_tree_list(m->job.run, &m->forest.tree, 0, &regions));
     return append_list(m, &regions, 0);
 }
@@ -260,6 +263,15 @@ build_joint(
     }
 }
 
+/* Parts of surfaces that are textured already have neighbours that are no
+ * clusters: their regions are flattened with what is around. */
+static bool
+is_recursive(const otx_mosaic *m, const otx_node *node)
+{
+    return m->job.settings.flatten == OTX_PATCH_RECURSIVE &&
+           (!m->job.given || node->cluster.face_count == 1);
+}
+
 static otx_status
 flatten_node(void *context, int64_t index, otx_worker *worker)
 {
@@ -281,11 +293,9 @@ flatten_node(void *context, int64_t index, otx_worker *worker)
     node->arena = otx_arena_create(m->job.run->allocator);
     if (!node->arena)
         return OSDTEX_ERROR_MEMORY;
-    /* A cluster of several faces has no control polygon of its own. */
-    if (m->job.settings.flatten == OTX_PATCH_RECURSIVE &&
-        node->cluster.face_count == 1)
+    if (is_recursive(m, node))
         return otx_recursive_build(
-            &request, node->cluster.level, node->cluster.faces[0],
+            &request, &m->forest.controls, &node->cluster,
             &m->forest.spaces[worker->index], worker->scratch, node->arena,
             &node->chart);
     return build_joint(m, node, &request, worker);

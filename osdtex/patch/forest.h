@@ -6,7 +6,7 @@
 #ifndef OTX_PATCH_FOREST_H
 #define OTX_PATCH_FOREST_H
 
-#include "cluster/tree.h"
+#include "cluster/controls.h"
 #include "flatten/chart.h"
 #include "match/match.h"
 #include "patch/mosaic_job.h"
@@ -39,6 +39,7 @@ typedef struct otx_forest
     otx_dual dual; /* of the level that regions are grown from; not made where
                     * it is the leaves' */
     otx_cluster_tree tree;
+    otx_controls controls;   /* of recursive flattening; else not made */
     otx_chart_space *spaces; /* [threads] */
     int32_t turn_count;      /* so far, see turn.h */
 } otx_forest;

@@ -71,10 +71,12 @@ chart_recursive(chart_bench *b, int32_t level, int32_t face)
 {
     otx_chart chart;
 
+    const otx_cluster cluster = {level, 1, &face, 1.0, -1};
+
     assert_int_equal(
         otx_recursive_build(
-            &b->request, level, face, &b->space, b->run->scratch, b->run->arena,
-            &chart),
+            &b->request, NULL, &cluster, &b->space, b->run->scratch,
+            b->run->arena, &chart),
         OSDTEX_OK);
     chart_check_space(b);
     return chart;
