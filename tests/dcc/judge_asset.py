@@ -44,7 +44,8 @@ def judge_maps(folder, shade, material):
             continue
         texture = shade.Shader(source.GetConnectedSource()[0])
         path = texture.GetInput("file").Get().path
-        assert list(folder.glob(path.replace("<UDIM>", "*"))) == baked, path
+        found = sorted(folder.glob(path.replace("<UDIM>", "*")))
+        assert found == baked, path
         assert texture.GetInput("sourceColorSpace").Get() == "raw"
         if name == "normal":
             assert tuple(texture.GetInput("scale").Get()) == (2, 2, 2, 1)
