@@ -17,6 +17,11 @@ def judge_conformance(stage):
 
     validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
     errors = UsdValidation.ValidationContext(validators).Validate(stage)
+    # That of normal maps looks for a file called <UDIM>; judge_maps() for its
+    # tiles.
+    errors = [
+        e for e in errors
+        if not (e.GetName() == "InvalidFile" and "<UDIM>" in e.GetMessage())]
     assert not errors, [e.GetErrorAsString() for e in errors]
     for prim in stage.Traverse():
         schema = prim.GetPrimDefinition()
