@@ -188,7 +188,9 @@ osdtex_write_options_init(osdtex_write_options *out, size_t bytes);
 
 /* Writes NAME.obj (`path`), NAME.mtl and NAME.exr, all or none of them. Of
  * several exemplars NAME_1.exr, NAME_2.exr and so on, each with materials of
- * its own. ARGUMENT, IO, LIMIT, MEMORY, CANCELLED. */
+ * its own. Of a mapping of pastes over one another (method lapped) the UVs are
+ * those of an atlas, and NAME.exr is what was baked onto it. ARGUMENT, IO,
+ * LIMIT, MEMORY, CANCELLED. */
 OSDTEX_API osdtex_status osdtex_mapping_write(
     osdtex_context *context, const osdtex_mapping *mapping, const char *path,
     const osdtex_write_options *options);
