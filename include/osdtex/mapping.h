@@ -44,6 +44,9 @@ typedef struct osdtex_also
                    * the first has */
 } osdtex_also;
 
+/* For osdtex_map_options.heal. */
+#define OSDTEX_HEAL_AUTO (-1.0)
+
 typedef struct osdtex_map_options
 {
     size_t size;
@@ -104,6 +107,11 @@ typedef struct osdtex_map_options
      * is the one that is mapped. Methods follow it where they follow
      * constraints, which is where the exemplar has a direction. NULL none. */
     const osdtex_field *field;
+    /* Width in texels of a band across seams that is made anew from the
+     * exemplar, texel by texel, so that structure goes on through it; 0: seams
+     * stay as they were cut; OSDTEX_HEAL_AUTO: as wide as the exemplar's
+     * features ask for. Bakes and pictures show it, UVs cannot. */
+    double heal;
 } osdtex_map_options;
 
 static inline osdtex_map_options
@@ -223,6 +231,9 @@ typedef struct osdtex_mapping_read_options
     int32_t map_count;
     int32_t reserved;
     double height_range, height_middle;
+    /* As osdtex_map_options.heal: seams are mended once the mapping is read. 0:
+     * as they were saved. */
+    double heal;
 } osdtex_mapping_read_options;
 
 static inline osdtex_mapping_read_options

@@ -1,6 +1,7 @@
 /* mapping_handle.c -- running a method, writing what it made. */
 #include "api/mapping_handle.h"
 #include "api/call.h"
+#include "api/heal_call.h"
 #include "api/map_input.h"
 #include "api/map_resolve.h"
 #include "api/method_settings.h"
@@ -123,6 +124,7 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
     run->seed = ours.seed;
     job = job_of(run, handle);
     OTX_TRY(otx_method_map(handle->method, &job, &handle->mapping));
+    OTX_TRY(otx_heal_call(run, ours.heal, handle));
     handle->info = otx_mapping_handle_info(handle);
     *out = handle;
     return OSDTEX_OK;

@@ -1,9 +1,11 @@
 /* saved_mapping.c -- mappings written to files, and read back. */
 #include "api/call.h"
 #include "api/exemplar_handle.h"
+#include "api/heal_call.h"
 #include "api/mapping_handle.h"
 #include "api/method_settings.h"
 #include "api/saved_about.h"
+#include "api/saved_field.h"
 #include "file/atomic_file.h"
 #include "file/tensors.h"
 #include "mapping/mapping_check.h"
@@ -152,6 +154,7 @@ gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
     otx_tensors_add(out, "uvs", OTX_TENSOR_F32, leaf->corner_count, 2, m->uvs);
     if (l)
         otx_tensors_add(out, "lookups", OTX_TENSOR_F32, count, 3, values);
+    otx_saved_field_add_reals(m, out);
     otx_tensors_add(
         out, "face_cage", OTX_TENSOR_I32, leaf->face_count, 0, leaf->face_cage);
     otx_tensors_add(
@@ -166,6 +169,7 @@ gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
         OTX_TRY(list_fragments(run, l, out));
         OTX_TRY(list_outlines(run, l, out));
     }
+    OTX_TRY(otx_saved_field_add_numbers(run, m, out));
     gather_cuts(mapping, out);
     if (m->lattice)
         otx_tensors_add(
@@ -366,7 +370,8 @@ read_exemplar(loader *l, int32_t k)
     OTX_TRY(choose_maps(l, k, swapped));
     OTX_TRY(otx_exemplar_handle_read(
         l->call->context, path, &s->options, &s->cuts,
-        l->options.without_figures != 0, &l->exemplars[k]));
+        l->options.without_figures != 0 && l->options.heal == 0.0,
+        &l->exemplars[k]));
     if (!swapped && s->hash && l->exemplars[k]->exemplar.source_hash &&
         strcmp(s->hash, l->exemplars[k]->exemplar.source_hash) != 0)
         otx_note(
@@ -498,6 +503,21 @@ join_lookups(const loader *l, const otx_level *leaf, otx_mapping *out)
     return OSDTEX_OK;
 }
 
+static otx_status
+join_made(const loader *l, otx_mapping *out)
+{
+    otx_vec2 unit[OTX_EXEMPLARS_MAX];
+    const char *what;
+
+    for (int32_t k = 0; k < l->about.exemplar_count; ++k)
+        unit[k] = (otx_vec2){
+            1.0 / l->about.exemplars[k].match_width,
+            1.0 / l->about.exemplars[k].match_height};
+    OTX_TRY(otx_saved_field_join(
+        &l->call->run, l->tensors, unit, l->about.exemplar_count, out, &what));
+    return what ? damaged(l, what) : OSDTEX_OK;
+}
+
 /* What is only shown, and may be missing. */
 static otx_status
 join_fields(const loader *l, const otx_level *leaf, otx_mapping *out)
@@ -549,6 +569,7 @@ join_arrays(const loader *l, otx_mapping *out)
     if (l->about.exemplar_count > 1 && !out->patch_exemplar)
         return damaged(l, "it does not say which exemplar its patches show");
     OTX_TRY(join_lookups(l, leaf, out));
+    OTX_TRY(join_made(l, out));
     return join_fields(l, leaf, out);
 }
 
@@ -580,6 +601,8 @@ join(const loader *l)
     OTX_TRY(otx_mapping_check_file(
         run, &m->mapping, &l->surface->surface, m->exemplars, m->source_count,
         l->path));
+    run->seed = m->seed;
+    OTX_TRY(otx_heal_call(run, l->options.heal, m));
     m->info = otx_mapping_handle_info(m);
     return OSDTEX_OK;
 }

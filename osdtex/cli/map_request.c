@@ -137,6 +137,26 @@ parse_numbers(otx_map_request *r)
     return true;
 }
 
+static bool
+parse_heal(otx_map_request *r)
+{
+    const char *text = r->values->text[OTX_FLAG_HEAL];
+    double *heal = &r->map_options.heal;
+
+    if (!text)
+        return true;
+    if (strcmp(text, "auto") == 0)
+        *heal = OSDTEX_HEAL_AUTO;
+    else if (!otx_value_real(text, heal) || !(*heal >= 0.0 && *heal <= 512.0))
+    {
+        otx_session_refuse(
+            "--heal takes a number of texels up to 512 or auto, not '%s'",
+            text);
+        return false;
+    }
+    return true;
+}
+
 /* --tile-level is a setting of the method, and the level of the surface where
  * none is given. */
 static bool
@@ -295,7 +315,7 @@ otx_map_request_parse(
         !otx_bake_flags_parse(values, &r->bake_options) ||
         !otx_also_flags_parse(values, &r->also) || !name_outputs(r) ||
         !parse_numbers(r) || !parse_tile_level(r) || !parse_first_patch(r) ||
-        !parse_fields(r))
+        !parse_fields(r) || !parse_heal(r))
         return false;
     /* Then the textures are PNG themselves. */
     if (strcmp(texture_extension(r), ".png") == 0)

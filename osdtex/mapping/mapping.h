@@ -8,6 +8,7 @@
 #define OTX_MAPPING_MAPPING_H
 
 #include "mapping/lookups.h"
+#include "mapping/source_field.h"
 #include "math/vec.h"
 #include "surface/surface.h"
 
@@ -44,6 +45,7 @@ typedef struct otx_mapping
     const otx_guide *guide;        /* that the first's patches follow; NULL */
     const otx_cell_map *lattice;   /* that it shows; NULL none */
     const otx_lookups *lookups;    /* where there are several; NULL nowhere */
+    const otx_source_field *field; /* where it was made by texels; NULL */
 } otx_mapping;
 
 #endif

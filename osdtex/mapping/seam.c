@@ -177,7 +177,15 @@ is_continuous(
     const search *s, int32_t edge, otx_vec2 sides[2][2],
     const otx_exemplar *from[2])
 {
-    if (is_layered(s, edge))
+    const int32_t *faces = s->leaf->edge_faces + 2 * (size_t)edge;
+    const int made = otx_show_is_made(&s->show, faces[0]) +
+                     otx_show_is_made(&s->show, faces[1]);
+
+    /* What was made texel by texel goes on, and meets the rest where it was
+     * held to the rest's own UVs. */
+    if (made == 2)
+        return from[0] == from[1];
+    if (made == 0 && is_layered(s, edge))
         return is_met(s, edge, 0) && is_met(s, edge, 1);
     return from[0] == from[1] &&
            otx_seam_continuous(from[0], sides[0], sides[1]);

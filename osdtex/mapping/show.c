@@ -25,7 +25,9 @@ otx_show_mix(
     const int32_t first = show->face_first[place->face];
     otx_vec2 sum = {0.0, 0.0};
 
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < 3 && term->made; ++k)
+        sum = otx_vec2_add(sum, otx_vec2_scale(w[k], term->uvs[k]));
+    for (int k = 0; k < 3 && !term->made; ++k)
     {
         const int32_t corner = place->corners[k];
         const float *uv = term->items ? term->items[corner - first].uv
@@ -34,6 +36,33 @@ otx_show_mix(
         sum = otx_vec2_add(sum, otx_vec2_scale(w[k], (otx_vec2){uv[0], uv[1]}));
     }
     return sum;
+}
+
+/* One of those of a source field. Where it shows nothing, the face's own UVs
+ * do. */
+static void
+look_at_field(
+    const otx_show_view *show, const otx_show_place *place, int32_t index,
+    otx_show_term *term)
+{
+    const otx_source_field *field = show->field;
+    otx_source_term around[OTX_SOURCE_FIELD_TERMS];
+    double sum = 0.0;
+
+    otx_source_field_look(
+        field, place->face, place->corners, place->at, around);
+    for (int i = 0; i < OTX_SOURCE_FIELD_TERMS; ++i)
+        sum += around[i].weight;
+    if (!(sum > 0.0))
+    {
+        term->weight = index == 0;
+        return;
+    }
+    term->weight = around[index].weight;
+    term->exemplar = field->charts[field->face_chart[place->face]].exemplar;
+    term->made = true;
+    for (int k = 0; k < 3; ++k)
+        term->uvs[k] = around[index].uvs[k];
 }
 
 otx_show_term
@@ -47,7 +76,9 @@ otx_show_term_at(
     otx_show_term term = {.weight = 1.0, .exemplar = exemplar};
     int32_t local[3];
 
-    if (otx_show_is_layered(show, place->face))
+    if (otx_show_is_made(show, place->face))
+        look_at_field(show, place, index, &term);
+    else if (otx_show_is_layered(show, place->face))
     {
         term.items = l->items + l->first[place->face] + (ptrdiff_t)index * size;
         for (int k = 0; k < 3; ++k)
@@ -250,7 +281,7 @@ otx_show_color(
     const bool layered = otx_show_is_layered(show, place->face);
     otx_show_sum sum = {{0.0}, 0.0};
 
-    if (layered && otx_show_layering(show) == OTX_LAYERING_OVER)
+    if (layered && otx_show_layering(show, place->face) == OTX_LAYERING_OVER)
     {
         show_over(show, textures, place, exemplar, share, channels, color);
         return;
@@ -278,7 +309,7 @@ otx_show_lab(
     const otx_show_place *place, int32_t exemplar, float lab[3])
 {
     const int32_t count = otx_show_term_count(show, place->face);
-    const otx_layering layering = otx_show_layering(show);
+    const otx_layering layering = otx_show_layering(show, place->face);
     otx_show_sum sum = {{0.0}, 0.0};
 
     for (int32_t i = 0; i < count; ++i)
@@ -292,7 +323,7 @@ otx_show_lab(
             continue;
         otx_view_value(
             otx_view_of(&from->lab, from->wrap_x, from->wrap_y), texel, lab);
-        if (!term.items)
+        if (!otx_show_is_layered(show, place->face))
             return;
         otx_show_add(
             layering, lab, 3, term.weight * masked(show, place, &term, 0.0),

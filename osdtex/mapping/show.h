@@ -4,7 +4,9 @@
  * and those of windows all ask here. A face shows what its UVs look up in the
  * exemplar of its patch, or where it has lookups (mapping/lookups.h) all of
  * them together: their mean, or one over the other, in premultiplied
- * scene-linear colour. See docs/notes/show.md. */
+ * scene-linear colour; where it was made texel by texel
+ * (mapping/source_field.h) the mean of the texels around.
+ * See docs/notes/show.md. */
 #ifndef OTX_MAPPING_SHOW_H
 #define OTX_MAPPING_SHOW_H
 
@@ -31,6 +33,8 @@ typedef struct otx_show_term
     int32_t exemplar;
     const otx_fragment *fragment; /* NULL: the face's own exemplar, opaque */
     const otx_lookup *items;      /* its corners; NULL: the face's own UVs */
+    bool made;                    /* or these, of a source field: */
+    otx_vec2 uvs[3];              /* at the place's corners */
 } otx_show_term;
 
 /* A mapping as it is asked, which it borrows. */
@@ -43,6 +47,7 @@ typedef struct otx_show_view
      * the frame that a place's dx and dy are in, which it must have. NULL:
      * colours. */
     const otx_carry *carry;
+    const otx_source_field *field; /* NULL nowhere */
 } otx_show_view;
 
 static inline otx_show_view
@@ -50,7 +55,14 @@ otx_show_of(const otx_mapping *mapping)
 {
     return (otx_show_view){
         mapping->uvs, otx_surface_leaf(mapping->surface)->face_first,
-        mapping->lookups, NULL};
+        mapping->lookups, NULL, mapping->field};
+}
+
+/* Whether a face shows what was made texel by texel. */
+static inline bool
+otx_show_is_made(const otx_show_view *show, int32_t face)
+{
+    return show->field && show->field->face_chart[face] >= 0;
 }
 
 /* Whether a face shows anything but what its own UVs look up. */
@@ -59,13 +71,16 @@ otx_show_is_layered(const otx_show_view *show, int32_t face)
 {
     const otx_lookups *l = show->lookups;
 
-    return l && l->first[face + 1] > l->first[face];
+    return (l && l->first[face + 1] > l->first[face]) ||
+           otx_show_is_made(show, face);
 }
 
 static inline otx_layering
-otx_show_layering(const otx_show_view *show)
+otx_show_layering(const otx_show_view *show, int32_t face)
 {
-    return show->lookups ? show->lookups->layering : OTX_LAYERING_MEAN;
+    return show->lookups && !otx_show_is_made(show, face)
+               ? show->lookups->layering
+               : OTX_LAYERING_MEAN;
 }
 
 /* How many terms a face has, at least 1. */
@@ -75,6 +90,8 @@ otx_show_term_count(const otx_show_view *show, int32_t face)
     const otx_lookups *l = show->lookups;
     const int32_t size = show->face_first[face + 1] - show->face_first[face];
 
+    if (otx_show_is_made(show, face))
+        return OTX_SOURCE_FIELD_TERMS;
     return otx_show_is_layered(show, face)
                ? (int32_t)((l->first[face + 1] - l->first[face]) / size)
                : 1;

@@ -71,6 +71,7 @@ otx_scene_from_mapping(
         .face_hole = leaf->face_hole,
         .uvs = mapping->uvs,
         .lookups = mapping->lookups,
+        .field = mapping->field,
         .vert_normals = surface->normals,
         .texture_count = count,
         .textures = textures,

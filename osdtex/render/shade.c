@@ -205,7 +205,7 @@ texture_color(const otx_shade *shade, const otx_hit *hit, float rgb[3])
 {
     const otx_scene *scene = shade->scene;
     const otx_show_view show = {
-        scene->uvs, scene->face_first, scene->lookups, NULL};
+        scene->uvs, scene->face_first, scene->lookups, NULL, scene->field};
     const int32_t t = texture_of(scene, hit->face);
     const double share = 1.0 / shade->options->samples;
     float color[OTX_IMAGE_MAX_CHANNELS];
@@ -448,7 +448,8 @@ material_at(
     const otx_scene *scene = shade->scene;
     const otx_map_textures *maps = scene->maps;
     const otx_show_view show = {
-        scene->uvs, scene->face_first, scene->lookups, &maps->carry};
+        scene->uvs, scene->face_first, scene->lookups, &maps->carry,
+        scene->field};
     const footprint f = footprint_of(shade, hit);
     const otx_show_place place = {
         hit->face, hit->corners, hit->weights, f.dx, f.dy};

@@ -13,7 +13,12 @@ allocate(otx_run *run, const otx_synth_chart *chart, otx_canvas *c)
 
     c->kinds = OTX_ZNEW(arena, uint8_t, count);
     c->uses = OTX_ZNEW(arena, uint8_t, count);
+    c->votes = OTX_ZNEW(arena, uint8_t, count);
     c->changed = OTX_ZNEW(arena, uint8_t, count);
+    c->stirred = OTX_ZNEW(arena, uint8_t, count);
+    c->moved = OTX_ZNEW(arena, uint8_t, count);
+    c->was_moved = OTX_ZNEW(arena, uint8_t, count);
+    c->row = OTX_ZNEW(arena, float, count);
     c->weights = OTX_ZNEW(arena, float, count);
     c->masses = OTX_ZNEW(arena, float, count);
     c->colors = OTX_ZNEW(arena, otx_quad, count * c->quads);
@@ -245,8 +250,8 @@ sized(
 {
     otx_canvas c = {
         .pattern = pattern,
-        .width = otx_pyramid_side(chart->width, level),
-        .height = otx_pyramid_side(chart->height, level),
+        .width = chart->width ? otx_pyramid_side(chart->width, level) : 0,
+        .height = chart->height ? otx_pyramid_side(chart->height, level) : 0,
         .level = level,
         .radius = radius,
         .wrap_x = chart->wrap_x,
@@ -255,8 +260,8 @@ sized(
         .voted = chart->guide ? 1 : pattern->quads};
 
     c.stride = c.width + 2 * OTX_CANVAS_RIM;
-    c.step_x = (float)chart->width / (float)c.width;
-    c.step_y = (float)chart->height / (float)c.height;
+    c.step_x = c.width ? (float)chart->width / (float)c.width : 1.0f;
+    c.step_y = c.height ? (float)chart->height / (float)c.height : 1.0f;
     return c;
 }
 
@@ -314,30 +319,105 @@ otx_canvas_descend(const otx_canvas *from, otx_canvas *to)
     otx_canvas_wrap(to);
 }
 
-/* The weights in a window, and whether a FREE texel is among them. */
-static float
-mass_at(const otx_canvas *c, ptrdiff_t at, bool *free)
+static ptrdiff_t
+count_of(const otx_canvas *c)
 {
-    float mass = 0.0f;
-
-    *free = false;
-    for (int32_t j = -c->radius; j <= c->radius; ++j)
-        for (int32_t i = -c->radius; i <= c->radius; ++i)
-        {
-            const ptrdiff_t near = at + (ptrdiff_t)j * c->stride + i;
-
-            mass += c->weights[near];
-            *free = *free || c->kinds[near] == OTX_SYNTH_FREE;
-        }
-    return mass;
+    return (ptrdiff_t)c->stride * (c->height + 2 * OTX_CANVAS_RIM);
 }
 
-static uint8_t
-use_of(uint8_t kind, bool free)
+/* Of every texel the sum of `in` over its window. */
+static void
+sum_windows(otx_canvas *c, const float *in, float *out)
 {
-    if (kind == OTX_SYNTH_COLLAR)
-        return OTX_CANVAS_READ;
-    return kind != OTX_SYNTH_VOID && free ? OTX_CANVAS_SEEK : OTX_CANVAS_NONE;
+    const int32_t r = c->radius, rim = OTX_CANVAS_RIM;
+
+    for (int32_t y = -rim; y < c->height + rim; ++y)
+        for (int32_t x = 0; x < c->width; ++x)
+        {
+            const ptrdiff_t at = otx_canvas_index(c, x, y);
+
+            c->row[at] = 0.0f;
+            for (int32_t i = -r; i <= r; ++i)
+                c->row[at] += in[at + i];
+        }
+    for (int32_t y = 0; y < c->height; ++y)
+        for (int32_t x = 0; x < c->width; ++x)
+        {
+            const ptrdiff_t at = otx_canvas_index(c, x, y);
+            float sum = 0.0f;
+
+            for (int32_t j = -r; j <= r; ++j)
+                sum += c->row[at + (ptrdiff_t)j * c->stride];
+            out[at] = sum;
+        }
+}
+
+/* Sets the texels of `out` whose window has one of `in`. */
+static void
+spread(otx_canvas *c, const uint8_t *in, uint8_t *out)
+{
+    const int32_t r = c->radius, rim = OTX_CANVAS_RIM;
+    uint8_t *row = (uint8_t *)c->row;
+
+    for (int32_t y = -rim; y < c->height + rim; ++y)
+        for (int32_t x = 0; x < c->width; ++x)
+        {
+            const ptrdiff_t at = otx_canvas_index(c, x, y);
+
+            row[at] = 0;
+            for (int32_t i = -r; i <= r; ++i)
+                row[at] |= in[at + i];
+        }
+    for (int32_t y = 0; y < c->height; ++y)
+        for (int32_t x = 0; x < c->width; ++x)
+        {
+            const ptrdiff_t at = otx_canvas_index(c, x, y);
+            uint8_t any = 0;
+
+            for (int32_t j = -r; j <= r; ++j)
+                any |= row[at + (ptrdiff_t)j * c->stride];
+            out[at] = any;
+        }
+}
+
+/* Windows with a FREE texel are searched; what these have in them is voted; and
+ * windows that reach that have a say. */
+static void
+use_windows(otx_canvas *c)
+{
+    const ptrdiff_t count = count_of(c);
+    uint8_t *mask = c->changed;
+
+    for (ptrdiff_t i = 0; i < count; ++i)
+        mask[i] = c->kinds[i] == OTX_SYNTH_FREE;
+    spread(c, mask, c->stirred);
+    for (ptrdiff_t i = 0; i < count; ++i)
+        c->uses[i] = c->stirred[i] && (c->kinds[i] == OTX_SYNTH_FREE ||
+                                       c->kinds[i] == OTX_SYNTH_FROZEN)
+                         ? OTX_CANVAS_SEEK
+                         : OTX_CANVAS_NONE;
+    otx_canvas_wrap(c);
+    for (ptrdiff_t i = 0; i < count; ++i)
+        mask[i] = c->uses[i] == OTX_CANVAS_SEEK;
+    spread(c, mask, c->stirred);
+    for (ptrdiff_t i = 0; i < count; ++i)
+        c->votes[i] = c->stirred[i] && (c->kinds[i] == OTX_SYNTH_FREE ||
+                                        c->kinds[i] == OTX_SYNTH_COLLAR);
+    otx_canvas_wrap(c);
+    spread(c, c->votes, c->stirred);
+    for (ptrdiff_t i = 0; i < count; ++i)
+        if (c->stirred[i] && c->kinds[i] == OTX_SYNTH_COLLAR)
+            c->uses[i] = OTX_CANVAS_READ;
+    memset(mask, 0, (size_t)count);
+}
+
+void
+otx_canvas_stir(otx_canvas *c, bool all)
+{
+    if (all)
+        memset(c->stirred, 1, (size_t)count_of(c));
+    else
+        spread(c, c->changed, c->stirred);
 }
 
 void
@@ -353,15 +433,9 @@ otx_canvas_weigh(otx_canvas *c, float hole)
                                                               : 1.0f;
         }
     otx_canvas_wrap(c);
-    for (int32_t y = 0; y < c->height; ++y)
-        for (int32_t x = 0; x < c->width; ++x)
-        {
-            const ptrdiff_t at = otx_canvas_index(c, x, y);
-            bool free;
-
-            c->masses[at] = mass_at(c, at, &free);
-            c->uses[at] = use_of(c->kinds[at], free);
-        }
+    sum_windows(c, c->weights, c->masses);
+    use_windows(c);
+    otx_canvas_stir(c, true);
     otx_canvas_wrap(c);
 }
 
@@ -370,7 +444,9 @@ copy_texel(otx_canvas *c, ptrdiff_t from, ptrdiff_t to)
 {
     c->kinds[to] = c->kinds[from];
     c->uses[to] = c->uses[from];
+    c->votes[to] = c->votes[from];
     c->changed[to] = c->changed[from];
+    c->moved[to] = c->moved[from];
     c->weights[to] = c->weights[from];
     c->masses[to] = c->masses[from];
     for (int32_t q = 0; q < c->quads; ++q)

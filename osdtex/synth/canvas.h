@@ -32,7 +32,12 @@ typedef struct otx_canvas
     float step_x, step_y; /* texels of level 0 to one of this */
     uint8_t *kinds;
     uint8_t *uses;
+    uint8_t *votes;      /* 1: the colour is voted */
     uint8_t *changed;    /* 1: the colour, by the last vote */
+    uint8_t *stirred;    /* 1: a colour in the window has changed since its cost
+                          * was found */
+    uint8_t *moved;      /* 1: the match, in this pass... */
+    uint8_t *was_moved;  /* ... and in the one before */
     float *weights;      /* in windows, 0 to 1 */
     float *masses;       /* sum of the weights of a texel's window */
     otx_quad *colors;    /* [quads] a texel */
@@ -45,6 +50,7 @@ typedef struct otx_canvas
     otx_synth_match *before; /* as a pass of the search found them */
     float *costs;            /* of the matches, a texel of full weight */
     float *trust;            /* weight of a window in votes */
+    float *row;              /* for sums along rows */
 } otx_canvas;
 
 static inline ptrdiff_t
@@ -79,8 +85,11 @@ otx_status otx_canvas_build(
 void otx_canvas_descend(const otx_canvas *from, otx_canvas *to);
 
 /* Says what windows are for and how much is in them; `hole` is what FREE texels
- * weigh, 1 but for a start. */
+ * weigh, 1 but for a start. Of a collar only what windows reach is used. */
 void otx_canvas_weigh(otx_canvas *canvas, float hole);
+
+/* Marks all windows that a changed texel is in as stirred, or just all. */
+void otx_canvas_stir(otx_canvas *canvas, bool all);
 
 /* Cuts canvases in strips, in run->scratch.
  *

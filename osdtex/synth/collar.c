@@ -128,15 +128,17 @@ link_chart(void *context, int64_t index, otx_worker *worker)
         {
             const ptrdiff_t at = otx_canvas_index(c, x, y);
 
-            if (c->kinds[at] != OTX_SYNTH_COLLAR)
+            if (c->uses[at] != OTX_CANVAS_READ)
                 continue;
             if (link_texel(
                     &j->charts[k], j->finest, j->canvases, k, x, y,
                     &out->links[out->count]))
                 ++out->count;
             else
-                c->uses[at] = OTX_CANVAS_NONE;
+                c->kinds[at] = OTX_SYNTH_VOID;
         }
+    if (out->links)
+        otx_canvas_weigh(c, 1.0f);
     return OSDTEX_OK;
 }
 
@@ -147,7 +149,7 @@ collar_size(const otx_canvas *c)
 
     for (int32_t y = 0; y < c->height; ++y)
         for (int32_t x = 0; x < c->width; ++x)
-            count += c->kinds[otx_canvas_index(c, x, y)] == OTX_SYNTH_COLLAR;
+            count += c->uses[otx_canvas_index(c, x, y)] == OTX_CANVAS_READ;
     return count;
 }
 

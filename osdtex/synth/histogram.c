@@ -91,8 +91,7 @@ move_canvas(const ladder *from, const ladder *to, float share, otx_canvas *c)
             const ptrdiff_t at = otx_canvas_index(c, x, y);
             otx_quad *color = &c->colors[at * c->quads];
 
-            if (c->kinds[at] == OTX_SYNTH_FREE ||
-                c->kinds[at] == OTX_SYNTH_COLLAR)
+            if (c->votes[at])
                 (*color)[0] +=
                     share * (moved(from, to, (*color)[0]) - (*color)[0]);
         }

@@ -53,6 +53,7 @@ take(const seeker *s, ptrdiff_t at, otx_synth_match m, float cost)
     }
     c->matches[at] = m;
     c->costs[at] = cost;
+    c->moved[at] = 1;
 }
 
 /* Takes a candidate where its cost is below `factor` of what there is. */
@@ -162,6 +163,21 @@ try_around(const seeker *s, ptrdiff_t at)
     }
 }
 
+/* Whether nothing has happened around a texel since it was last looked at:
+ * neither to the colours in its window nor to its neighbours' matches. */
+static bool
+is_quiet(const seeker *s, int32_t y, ptrdiff_t at)
+{
+    const otx_canvas *c = s->canvas;
+    const ptrdiff_t up = c->stride;
+    const uint8_t *was = c->was_moved + at, *now = c->moved + at;
+
+    return !s->usage && !(s->pass->stirred && c->stirred[at]) && !was[0] &&
+           !was[-1] && !was[1] && !was[-up] && !was[up] && !now[-1] &&
+           !now[1] && (y == s->y_first || !now[-up]) &&
+           (y + 1 == s->y_end || !now[up]);
+}
+
 static void
 seek(
     const seeker *s, const otx_synth_chart *chart, int32_t x, int32_t y,
@@ -170,7 +186,7 @@ seek(
     otx_canvas *c = s->canvas;
     const ptrdiff_t at = otx_canvas_index(c, x, y);
 
-    if (c->uses[at] != OTX_CANVAS_SEEK)
+    if (c->uses[at] != OTX_CANVAS_SEEK || is_quiet(s, y, at))
         return;
     if (s->pass->refresh)
         c->costs[at] = otx_window_cost(
@@ -260,12 +276,13 @@ remember(void *context, int64_t index, otx_worker *worker)
 {
     const job *j = context;
     otx_canvas *c = j->canvases[index];
+    const size_t count =
+        (size_t)c->stride * (size_t)(c->height + 2 * OTX_CANVAS_RIM);
 
     (void)worker;
-    memcpy(
-        c->before, c->matches,
-        (size_t)c->stride * (size_t)(c->height + 2 * OTX_CANVAS_RIM) *
-            sizeof *c->before);
+    memcpy(c->before, c->matches, count * sizeof *c->before);
+    memcpy(c->was_moved, c->moved, count);
+    memset(c->moved, 0, count);
     return OSDTEX_OK;
 }
 

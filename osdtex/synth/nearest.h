@@ -14,6 +14,7 @@ typedef struct otx_nearest_pass
     uint64_t seed;
     uint32_t number;  /* of all passes so far */
     bool refresh;     /* colours have changed: costs are made anew */
+    bool stirred;     /* so are the matches that windows were tried with */
     bool hint;        /* try the charts' hints, too */
     double reach;     /* of the first random step, texels of the exemplar;
                        * 0: none are made */

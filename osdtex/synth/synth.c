@@ -80,6 +80,7 @@ otx_maker_search(otx_maker *m, int32_t level, int32_t round, int32_t passes)
     for (int32_t i = 0; i < passes; ++i)
     {
         pass.refresh = i == 0;
+        pass.stirred = i < 2;
         pass.hint = i == 0 && round == 0;
         pass.number = m->passes++;
         if (pass.usage)
@@ -115,7 +116,9 @@ rounds(otx_maker *m, int32_t level, int32_t count)
     {
         OTX_TRY(otx_maker_search(
             m, level, round, round == 0 && level > 0 ? PASSES_FIRST : PASSES));
-        OTX_TRY(otx_maker_vote(m, level, false));
+        /* Matches are what is handed out. */
+        if (level > 0 || round + 1 < count)
+            OTX_TRY(otx_maker_vote(m, level, false));
     }
     return OSDTEX_OK;
 }

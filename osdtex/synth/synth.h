@@ -52,9 +52,9 @@ typedef struct otx_synth_place
 /* All arrays have a row of `width` after another, the bottom row first. */
 typedef struct otx_synth_chart
 {
-    int32_t width, height;
-    bool wrap_x, wrap_y;  /* the last column is beside the first */
-    const uint8_t *kinds; /* [texels] otx_synth_kind; NULL: all FREE */
+    int32_t width, height; /* 0: nothing */
+    bool wrap_x, wrap_y;   /* the last column is beside the first */
+    const uint8_t *kinds;  /* [texels] otx_synth_kind; NULL: all FREE */
     /* [texels * 3] the symmetric root (xx, xy, yy) of the first fundamental
      * form: a step of the chart times it is one on the surface, in exemplar
      * texels. NULL: the identity. Stretch outside of [1/2, 2] is cut off. */

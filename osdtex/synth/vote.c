@@ -10,7 +10,7 @@
 
 #define SIGMA 2.0f   /* texels, of votes by distance from the middle */
 #define NEAR 0.0625f /* texels between two places that are looked up as one */
-#define CHANGE 1.2f  /* of a channel in Lab units, that is worth a search */
+#define CHANGE 0.1f   /* of a channel in Lab units, that is worth a search */
 
 enum
 {
@@ -183,7 +183,7 @@ vote_texel(otx_canvas *c, ptrdiff_t at, const float *bell)
     tally t = {.x = -1e9f};
 
     c->changed[at] = 0;
-    if (c->kinds[at] != OTX_SYNTH_FREE && c->kinds[at] != OTX_SYNTH_COLLAR)
+    if (!c->votes[at])
         return;
     if (c->quads == 1)
         gather_votes(c, 1, at, bell, &t);
@@ -219,6 +219,7 @@ vote_wrap(void *context, int64_t index, otx_worker *worker)
 
     (void)worker;
     otx_canvas_wrap(job->canvases[index]);
+    otx_canvas_stir(job->canvases[index], false);
     return OSDTEX_OK;
 }
 

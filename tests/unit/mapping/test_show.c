@@ -68,7 +68,7 @@ set(otx_layering layering, float below, float above)
     s->fragments[1].exemplar = 1;
     s->runs[1] = 8;
     s->lookups = (otx_lookups){s->runs, s->items, layering, 2, s->fragments};
-    s->show = (otx_show_view){s->uvs, s->first, &s->lookups, NULL};
+    s->show = (otx_show_view){s->uvs, s->first, &s->lookups, NULL, NULL};
     s->place = (otx_show_place){0, s->corners, s->at, s->zero, s->zero};
     return s;
 }
