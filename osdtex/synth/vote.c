@@ -10,7 +10,7 @@
 
 #define SIGMA 2.0f   /* texels, of votes by distance from the middle */
 #define NEAR 0.0625f /* texels between two places that are looked up as one */
-#define CHANGE 0.1f   /* of a channel in Lab units, that is worth a search */
+#define CHANGE 0.1f  /* of a channel in Lab units, that is worth a search */
 
 enum
 {
