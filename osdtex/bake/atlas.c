@@ -2,6 +2,7 @@
 #include "bake/atlas.h"
 
 #include "bake/extent.h"
+#include "base/union_find.h"
 #include "image/udim.h"
 
 #include <string.h>
@@ -39,6 +40,46 @@ cell_side(double texels, int32_t margin, int32_t side)
     if (!(steps * step < most))
         return most;
     return steps > 2.0 ? (int32_t)steps * step : 2 * step;
+}
+
+/* Makes the sides of blocks that are one edge of the cage as long, by the
+ * longest: then they get as many texels, and lookups along the edge find the
+ * same from both sides. Opposite edges of a quad are one length, so whole loops
+ * of edges are; of other faces the sides run aslant. */
+static otx_status
+even_out(otx_run *run, const otx_level *cage, double *extents)
+{
+    int32_t *parent = OTX_NEW(run->scratch, int32_t, cage->edge_count);
+    double *lengths = OTX_ZNEW(run->scratch, double, cage->edge_count);
+
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t e = 0; e < cage->edge_count; ++e)
+        parent[e] = e;
+    for (int32_t f = 0; f < cage->face_count; ++f)
+    {
+        const int32_t *edges = cage->face_edges + cage->face_first[f];
+
+        for (int32_t k = 0; k < 2 && otx_level_face_size(cage, f) == 4; ++k)
+            otx_union_find_join(parent, edges[k], edges[k + 2]);
+    }
+    for (int32_t pass = 0; pass < 2; ++pass)
+        for (int32_t f = 0; f < cage->face_count; ++f)
+        {
+            const int32_t *edges = cage->face_edges + cage->face_first[f];
+
+            for (int32_t k = 0; k < 2 && otx_level_face_size(cage, f) == 4; ++k)
+            {
+                double *length =
+                    &lengths[otx_union_find_root(parent, edges[k])];
+                double *extent = &extents[2 * (size_t)f + (size_t)k];
+
+                if (pass == 0)
+                    *length = fmax(*length, *extent);
+                else
+                    *extent = *length;
+            }
+        }
+    return OSDTEX_OK;
 }
 
 /* ---- shelves --------------------------------------------------------------
@@ -304,6 +345,7 @@ otx_atlas_pack(
     out->uvs = OTX_NEW(run->arena, float, 2 * (size_t)cage->corner_count);
     OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_extent_measure(run, surface, extents));
+    OTX_TRY(even_out(run, &surface->levels[0], extents));
     if (!sort_faces(run->scratch, &p))
         return otx_fail_memory(run, STAGE);
     settle(&p, options, out);

@@ -46,11 +46,13 @@ bool otx_block_forget(otx_block *block, otx_arena *scratch);
 otx_walk otx_block_walk(
     const otx_block *block, const otx_mip_facet *placed, otx_vec2 texel);
 
-/* Whether lookups come close to texels: they do to those of level 0. */
+/* Whether texels are fitted to lookups. These come close to those of level 0;
+ * heights must meet at all levels. */
 static inline bool
 otx_block_is_fitted(const otx_block *block)
 {
-    return block->mip->level == 0 && block->source->kind == OTX_TEXEL_COLOR;
+    return block->source->kind == OTX_TEXEL_MAPS ||
+           (block->mip->level == 0 && block->source->kind == OTX_TEXEL_COLOR);
 }
 
 /* Index of a texel of the raster. */

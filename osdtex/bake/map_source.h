@@ -21,6 +21,13 @@ otx_status otx_map_source_create(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_layout *layout, bool y_down, otx_map_source *out);
 
+/* Whether there are heights, which both sides of a rim must agree on. */
+static inline bool
+otx_map_source_welds(const otx_map_source *source)
+{
+    return source->first[OTX_COMPANION_HEIGHT] >= 0;
+}
+
 /* Values of a texel as files have them: normals of length 1, (n + 1) / 2. */
 void otx_map_source_encode(const otx_map_source *source, float *values);
 

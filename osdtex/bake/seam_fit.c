@@ -20,6 +20,9 @@ enum
  * half texels: coordinates are rounded to floats. */
 static const double MIDWAY = 0.01;
 
+/* A fraction of an edge that is nearer to an end than this is the end. */
+static const double END = 1e-3;
+
 /* Exemplar UVs that differ by less are one: rounding. */
 static const double SAME = 1e-5;
 
@@ -151,6 +154,19 @@ is_nothing(double step, bool wrap)
     return fabs(wrap ? step - floor(step + 0.5) : step) < SAME;
 }
 
+/* The height of a place. */
+static float
+height_at(const otx_seam_fit *fit, const otx_show_place *place)
+{
+    const int32_t exemplar = otx_source_of(fit->mapping, place->face);
+    float values[OTX_IMAGE_MAX_CHANNELS];
+
+    otx_show_color(
+        fit->show, fit->textures, place, exemplar, 1.0,
+        fit->textures[exemplar].pyramid.levels[0].channels, values);
+    return values[fit->show->carry->height];
+}
+
 /* What one side shows at fraction t of the way from its corner 0. */
 static void
 color_on_side(
@@ -162,6 +178,11 @@ color_on_side(
     const otx_show_place place = {
         side->face, side->corners, at, side->dx, side->dy};
 
+    if (fit->welds)
+    {
+        *color = height_at(fit, &place);
+        return;
+    }
     if (side->layered)
     {
         otx_show_color(
@@ -221,20 +242,99 @@ set_edge(const otx_seam_fit *fit, int32_t rim, otx_seam_fit_edge *out)
     int32_t here[3], there[3];
 
     out->rim = rim;
-    out->goes_on = other >= 0;
+    out->goes_on = other >= 0 || fit->welds;
     if (!out->goes_on)
         return;
     edge_corners(leaf, r->face, r->edge, here);
-    edge_corners(leaf, other, edge_of(leaf, other, edge), there);
+    edge_corners(leaf, r->face, r->edge, there);
+    if (other >= 0)
+        edge_corners(leaf, other, edge_of(leaf, other, edge), there);
+    else
+    {
+        /* The same side backwards: rims that end there want its heights. */
+        there[0] = here[1];
+        there[1] = here[0];
+    }
 
     const double texels = fmin(length_of(mip, here), length_of(mip, there));
 
     out->step = texels > 1.0 ? 1.0 / texels : 1.0;
     otx_mip_ends(mip, r, out->ends);
     out->sides[0] = side_of(fit, r->face, here, out->step);
-    out->sides[1] = side_of(fit, other, there, out->step);
+    out->sides[1] =
+        side_of(fit, other >= 0 ? other : r->face, there, out->step);
     /* Along a seam the step is the mapping's own. */
-    out->goes_on = is_whole(fit, out->sides);
+    out->goes_on = fit->welds || is_whole(fit, out->sides);
+}
+
+/* The height of a face around corner k, a texel of it. */
+static float
+height_at_corner(const otx_seam_fit *fit, int32_t face, int32_t k)
+{
+    const otx_level *leaf = otx_surface_leaf(fit->mapping->surface);
+    const int32_t first = leaf->face_first[face];
+    const int32_t size = otx_level_face_size(leaf, face);
+    const int32_t corners[3] = {
+        first + k, first + (k + 1) % size, first + (k + size - 1) % size};
+    const double at[3] = {1.0, 0.0, 0.0};
+    double along[3] = {0.0}, away[3];
+    const double texels = length_of(fit->mip, corners);
+
+    along[1] = texels > 1.0 ? 1.0 / texels : 1.0;
+    along[0] = -along[1];
+    step_away(fit, corners, away);
+    return height_at(fit, &(otx_show_place){face, corners, at, along, away});
+}
+
+/* Adds up heights of the faces around a corner, over the edges before it (way
+ * 0) or after it (1), until one comes again or the surface ends. True when it
+ * has been all around. */
+static bool
+sum_around(
+    const otx_seam_fit *fit, int32_t face, int32_t k, int way, double *sum,
+    int32_t *count)
+{
+    const otx_layout *layout = fit->mip->layout;
+    const otx_level *leaf = otx_surface_leaf(layout->surface);
+    const int32_t begin = face,
+                  vert = leaf->face_verts[leaf->face_first[face] + k];
+
+    for (;;)
+    {
+        const int32_t size = otx_level_face_size(leaf, face);
+        const int32_t over = way ? k : (k + size - 1) % size;
+        const int32_t other = otx_layout_across(layout, face, over);
+        int32_t first;
+
+        if (other < 0 || other == begin)
+            return other >= 0;
+        first = leaf->face_first[other];
+        for (k = 0; leaf->face_verts[first + k] != vert;)
+            ++k;
+        face = other;
+        *sum += (double)height_at_corner(fit, face, k);
+        ++*count;
+    }
+}
+
+/* What all faces around corner k of a face show there, in the mean. */
+static float
+height_at_vertex(const otx_seam_fit *fit, int32_t face, int32_t k)
+{
+    double sum = (double)height_at_corner(fit, face, k);
+    int32_t count = 1;
+
+    if (!sum_around(fit, face, k, 1, &sum, &count))
+        sum_around(fit, face, k, 0, &sum, &count);
+    return (float)(sum / count);
+}
+
+/* Whether a fraction of the way is one of the ends, which other edges have as
+ * well: coordinates are rounded to floats. */
+static bool
+is_end(double t)
+{
+    return !(t > END && t < 1.0 - END);
 }
 
 /* What both sides show at fraction t of the way, in the mean. At an end, which
@@ -245,6 +345,18 @@ color_of(
     float *color)
 {
     const int32_t channels = fit->grid->channels;
+
+    if (fit->welds && is_end(t))
+    {
+        const otx_level *leaf = otx_surface_leaf(fit->mip->layout->surface);
+        const otx_mip_rim *r = &fit->mip->rims[edge->rim];
+        const int32_t size = otx_level_face_size(leaf, r->face);
+
+        *color = height_at_vertex(
+            fit, r->face, (r->edge + (t < 0.5 ? 0 : 1)) % size);
+        return;
+    }
+
     const double step = t > 0.0 && t < 1.0 ? edge->step : 0.0;
     double sum[OTX_IMAGE_MAX_CHANNELS] = {0.0};
 
@@ -347,6 +459,9 @@ half_of(float value)
 static float
 hold(const otx_seam_fit *fit, int32_t channel, double value)
 {
+    if (fit->welds)
+        return (float)value;
+
     const float low = fit->low[channel], high = fit->high[channel];
 
     return value < low ? low : value > high ? high : (float)value;
@@ -415,7 +530,7 @@ complete(
             return;
         }
         for (int32_t c = 0; c < channels; ++c)
-            sum[c] += is_corner ? out[c] : half_of(out[c]);
+            sum[c] += is_corner || fit->welds ? out[c] : half_of(out[c]);
     }
     for (int32_t c = 0; c < channels; ++c)
         out[c] = hold(fit, c, (is_corner ? 4.0 : 2.0) * wanted[c] - sum[c]);
@@ -438,7 +553,7 @@ fit_texel(
     keep(fit, x, y, out);
     if (rim < 0 || fit->raster->width < 2 || fit->raster->height < 2 ||
         !(fit->near_rim->distance[texel] < 1.0f) ||
-        fit->near_seam->edges[texel] >= 0)
+        (!fit->welds && fit->near_seam->edges[texel] >= 0))
         return;
     if (edge->rim != rim)
         set_edge(fit, rim, edge);

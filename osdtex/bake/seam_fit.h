@@ -25,6 +25,10 @@ typedef struct otx_seam_fit
     const otx_raster_near *near_rim, *near_seam; /* near_seam: blended ones */
     const otx_sharpen_grid *grid;                /* the raster's texels */
     const float *low, *high; /* [grid->channels] no texel leaves these */
+    /* The grid is the heights that show->carry carries over: a displaced
+     * surface must not open, so both sides are made one wherever the surface
+     * goes on, and nothing is held. False: colours. */
+    bool welds;
 } otx_seam_fit;
 
 /* One face's view of an edge: the side of a facet from corner 0 to corner 1,

@@ -140,25 +140,81 @@ hand_out(
     }
 }
 
+/* Heights such that both sides of a rim show the same along it. */
+static bool
+weld_heights(const otx_map_source *maps, const picture *p, otx_arena *scratch)
+{
+    const otx_block *block = &p->block;
+    const int32_t channels = maps->texels.channels;
+    const int32_t width = block->raster.width, height = block->raster.height;
+    const size_t texels = (size_t)width * (size_t)height;
+    float *heights = OTX_NEW(scratch, float, texels);
+    float *from = p->pixels + maps->carry.height;
+    const otx_sharpen_grid grid = {width, height, 1, heights, p->owners};
+    otx_seam_fit_edge edge = {.rim = -1};
+    otx_show_view show = maps->texels.show;
+    otx_carry carry = maps->carry;
+    const otx_seam_fit fit = {
+        .mapping = maps->texels.mapping,
+        .show = &show,
+        .textures = maps->texels.textures,
+        .mip = block->mip,
+        .raster = &block->raster,
+        .near_rim = &block->near_rim,
+        .near_seam = &block->near_seam,
+        .grid = &grid,
+        .welds = true,
+    };
+
+    if (!heights)
+        return false;
+    carry.normal = -1;
+    show.carry = &carry;
+    for (size_t i = 0; i < texels; ++i)
+        heights[i] = from[i * (size_t)channels];
+    for (int32_t y = block->below; y < block->below + block->height; ++y)
+        for (int32_t x = block->left; x < block->left + block->width; ++x)
+            otx_seam_fit_texel(
+                &fit, x, y, &edge,
+                from + otx_block_index(block, x, y) * (size_t)channels);
+    return true;
+}
+
+/* What the maps are baked from: the block as it is drawn, or where their rims
+ * are fitted and its are not, with what is around it. */
+static bool
+prepare_maps(
+    const otx_map_source *maps, const otx_block *drawn, int32_t x, int32_t y,
+    otx_arena *scratch, otx_block *out)
+{
+    if (otx_map_source_welds(maps) && !otx_block_is_fitted(drawn))
+        return otx_block_draw(&maps->texels, drawn->mip, x, y, scratch, out);
+    *out = *drawn;
+    out->source = &maps->texels;
+    return otx_block_forget(out, scratch);
+}
+
 /* The maps of a block whose faces are drawn: what lies under the samples is the
  * same. */
 static bool
 bake_maps(
-    const otx_map_source *maps, const otx_block *drawn, otx_arena *scratch,
-    float *const planes[OTX_COMPANION_COUNT])
+    const otx_map_source *maps, const otx_block *drawn, int32_t column,
+    int32_t row, otx_arena *scratch, float *const planes[OTX_COMPANION_COUNT])
 {
-    picture p = {.block = *drawn, .beyond = otx_gutter_begin()};
-    otx_block *block = &p.block;
+    picture p = {.beyond = otx_gutter_begin()};
+    const otx_block *block = &p.block;
 
-    block->source = &maps->texels;
-    if (!otx_block_forget(block, scratch) || !allocate(scratch, &p))
+    if (!prepare_maps(maps, drawn, column, row, scratch, &p.block) ||
+        !allocate(scratch, &p))
+        return false;
+    shade(&p);
+    if (otx_map_source_welds(maps) && !weld_heights(maps, &p, scratch))
         return false;
     for (int32_t y = 0; y < block->height; ++y)
         for (int32_t x = 0; x < block->width; ++x)
         {
             const int32_t i = x + block->left, j = y + block->below;
 
-            shade_texel(&p, i, j);
             hand_out(
                 maps,
                 p.pixels + otx_block_index(block, i, j) *
@@ -188,5 +244,5 @@ otx_texel_bake(
             pixels, p.pixels,
             (size_t)p.block.width * (size_t)p.block.height *
                 (size_t)source->channels * sizeof *pixels);
-    return !maps || bake_maps(maps, &p.block, scratch, planes);
+    return !maps || bake_maps(maps, &p.block, x, y, scratch, planes);
 }

@@ -1,5 +1,6 @@
 /* also_flags.c -- [MATERIAL=]FILE and lists of scales. */
 #include "cli/also_flags.h"
+#include "cli/path_list.h"
 #include "cli/session.h"
 #include "cli/value.h"
 
@@ -74,6 +75,45 @@ otx_also_flags_parse(const otx_flag_values *values, otx_also_flags *out)
     return parse_scales(values->text[OTX_FLAG_SCALE], out);
 }
 
+/* As an input, once. */
+static void
+add_input(otx_flag_values *values, const char *path)
+{
+    for (int i = 0; i < values->map_count; ++i)
+        if (strcmp(values->maps[i], path) == 0)
+            return;
+    values->maps[values->map_count++] = path;
+}
+
+osdtex_status
+otx_also_flags_find(
+    osdtex_context *context, otx_flag_values *values, otx_also_flags *also)
+{
+    for (int k = 0; k < also->count; ++k)
+    {
+        const osdtex_material_info *info;
+        osdtex_status status;
+
+        if (!otx_path_list_is_folder(also->files[k]))
+            continue;
+        status = osdtex_material_find(context, also->files[k], &also->sets[k]);
+        if (status != OSDTEX_OK)
+            return status;
+        info = otx_also_flags_set(also, k);
+        also->files[k] = info->color;
+        add_input(values, info->color);
+        for (int i = 0; i < info->map_count; ++i)
+            add_input(values, info->maps[i].path);
+    }
+    return OSDTEX_OK;
+}
+
+const osdtex_material_info *
+otx_also_flags_set(const otx_also_flags *also, int k)
+{
+    return osdtex_material_describe(also->sets[k]);
+}
+
 osdtex_status
 otx_also_flags_read(
     osdtex_context *context, const osdtex_exemplar_options *options,
@@ -81,8 +121,14 @@ otx_also_flags_read(
 {
     for (int k = 0; k < also->count; ++k)
     {
-        const osdtex_status status = osdtex_exemplar_read(
-            context, also->files[k], options, &also->exemplars[k]);
+        const osdtex_material_info *set = otx_also_flags_set(also, k);
+        osdtex_exemplar_options own = *options;
+        osdtex_status status;
+
+        own.maps = set ? set->maps : NULL;
+        own.map_count = set ? set->map_count : 0;
+        status = osdtex_exemplar_read(
+            context, also->files[k], &own, &also->exemplars[k]);
 
         if (status != OSDTEX_OK)
             return status;
@@ -97,5 +143,8 @@ void
 otx_also_flags_destroy(otx_also_flags *also)
 {
     for (int k = 0; k < also->count; ++k)
+    {
         osdtex_exemplar_destroy(also->exemplars[k]);
+        osdtex_material_destroy(also->sets[k]);
+    }
 }

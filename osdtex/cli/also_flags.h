@@ -18,6 +18,7 @@ typedef struct otx_also_flags
     double scale;                   /* of the first exemplar; 0 not given */
     osdtex_also list[OTX_ALSO_MAX]; /* what the library takes */
     osdtex_exemplar *exemplars[OTX_ALSO_MAX]; /* as read; NULL */
+    osdtex_material *sets[OTX_ALSO_MAX]; /* of those that are folders; NULL */
 } otx_also_flags;
 
 /* FILE of "[MATERIAL=]FILE". */
@@ -25,6 +26,15 @@ const char *otx_also_flags_file(const char *text);
 
 /* Takes --also and --scale apart. False after saying what is wrong. */
 bool otx_also_flags_parse(const otx_flag_values *values, otx_also_flags *out);
+
+/* Finds the materials in those that are folders: their files go into `values`
+ * as inputs. Findings say what is wrong. */
+osdtex_status otx_also_flags_find(
+    osdtex_context *context, otx_flag_values *values, otx_also_flags *also);
+
+/* Maps of the one at `k`; NULL none. */
+const osdtex_material_info *
+otx_also_flags_set(const otx_also_flags *also, int k);
 
 /* Reads the files, and sets what the library takes. */
 osdtex_status otx_also_flags_read(

@@ -37,7 +37,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "have this material (usemtl), or for those that --mask or "
          "--constraints say; EXEMPLAR goes everywhere else, and "
          "the seams between them run within --set transition=TEXELS of where "
-         "they are asked for. =FILE for a name with a ="},
+         "they are asked for. =FILE for a name with a =; a folder is a "
+         "material as --material takes it"},
     [OTX_FLAG_MATERIAL] =
         {"material", 0, OTX_FLAG_GROUP_MAIN, "FOLDER|PREFIX",
          "the set of maps in a folder, or of those whose names begin so: "

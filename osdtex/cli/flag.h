@@ -128,7 +128,9 @@ enum
     OTX_FLAG_SPOOLS_MAX = 8,
     OTX_FLAG_OPERANDS_MAX = 8,
     OTX_FLAG_EDGES_MAX = 8,
-    OTX_FLAG_ALSO_MAX = 8
+    OTX_FLAG_ALSO_MAX = 8,
+    OTX_FLAG_SET_FILES =
+        OSDTEX_MAP_KINDS + 1 /* of a material, its colour too */
 };
 
 /* A command line, taken apart. Strings point into argv. */
@@ -162,7 +164,8 @@ typedef struct otx_flag_values
     int also_count;
     const char *operands[OTX_FLAG_OPERANDS_MAX];
     int operand_count;
-    const char *maps[OSDTEX_MAP_KINDS]; /* files of the material, as found */
+    /* Files of materials, as found. */
+    const char *maps[OSDTEX_MAP_KINDS + OTX_FLAG_ALSO_MAX * OTX_FLAG_SET_FILES];
     int map_count;
     const char *saved; /* NAME.osdtex of --from; NULL none */
     otx_flag_saved of_saved;

@@ -50,8 +50,13 @@ otx_guard_named(
     for (int i = 0; i < 3 && status == OSDTEX_OK; ++i)
         status = add_file(context, deep, out, values->text[files[i]]);
     for (int i = 0; i < values->also_count && status == OSDTEX_OK; ++i)
-        status =
-            add_file(context, deep, out, otx_also_flags_file(values->also[i]));
+    {
+        const char *file = otx_also_flags_file(values->also[i]);
+
+        /* Of a folder its files are listed below. */
+        if (!otx_path_list_is_folder(file))
+            status = add_file(context, deep, out, file);
+    }
     for (int i = 0; i < values->map_count && status == OSDTEX_OK; ++i)
         status = add_file(context, deep, out, values->maps[i]);
     if (status == OSDTEX_OK)

@@ -343,6 +343,9 @@ prepare(otx_session *session, job *j)
         status = otx_material_flags_take(
             session, &j->values, &j->request.exemplar_options,
             &j->request.material);
+    if (status == OSDTEX_OK)
+        status =
+            otx_also_flags_find(session->context, &j->values, &j->request.also);
     if (status == OSDTEX_OK && j->values.saved &&
         !otx_map_request_name(&j->request))
         status = OSDTEX_ERROR_ARGUMENT;

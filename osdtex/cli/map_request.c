@@ -59,16 +59,35 @@ otx_map_request_name(otx_map_request *r)
     return true;
 }
 
-/* NAME_normal.exr and so on, beside NAME.exr, of the first exemplar. */
-static bool
-name_map(const otx_map_request *r, int index, char out[OTX_MAP_PATH_BYTES])
+/* Bit i: exemplar k has a map of kind i. */
+static uint32_t
+kinds_of(const otx_map_request *r, int k)
 {
-    const char *kind = osdtex_map_kind_name(r->material.maps[index].kind);
-    const int base = (int)(strrchr(r->exrs[0], '.') - r->exrs[0]);
+    const osdtex_material_info *set;
+    uint32_t kinds = 0;
 
-    return snprintf(
-               out, OTX_MAP_PATH_BYTES, "%.*s_%s.exr", base, r->exrs[0], kind) <
-           OTX_MAP_PATH_BYTES;
+    if (k == 0)
+        return otx_material_flags_kinds(&r->material);
+    set = k <= r->also.count ? otx_also_flags_set(&r->also, k - 1) : NULL;
+    for (int i = 0; set && i < set->map_count; ++i)
+        kinds |= 1u << set->maps[i].kind;
+    return kinds;
+}
+
+/* NAME_normal.exr and so on, beside NAME.exr, of exemplar k; false where it has
+ * no such map. */
+static bool
+name_map(
+    const otx_map_request *r, int k, osdtex_map_kind kind,
+    char out[OTX_MAP_PATH_BYTES])
+{
+    const char *color = r->exrs[k];
+
+    return (kinds_of(r, k) & 1u << kind) &&
+           snprintf(
+               out, OTX_MAP_PATH_BYTES, "%.*s_%s.exr",
+               (int)(strrchr(color, '.') - color), color,
+               osdtex_map_kind_name(kind)) < OTX_MAP_PATH_BYTES;
 }
 
 /* NAME.mtl and NAME.exr beside NAME.obj, NAME_cage.obj and NAME_cage.mtl of a
@@ -340,6 +359,8 @@ otx_map_request_parse(
 void
 otx_map_request_outputs(const otx_map_request *r, otx_path_list *out)
 {
+    char path[OTX_MAP_PATH_BYTES];
+
     if (r->maps)
     {
         otx_path_list_add(out, r->obj);
@@ -347,13 +368,9 @@ otx_map_request_outputs(const otx_map_request *r, otx_path_list *out)
     }
     for (int k = 0; r->maps && k < r->exr_count; ++k)
         otx_path_list_add(out, r->exrs[k]);
-    for (int i = 0; r->maps && i < r->material.count; ++i)
-    {
-        char path[OTX_MAP_PATH_BYTES];
-
-        if (name_map(r, i, path))
+    for (int i = 0; r->maps && i < (r->also.count + 1) * OSDTEX_MAP_KINDS; ++i)
+        if (name_map(r, i / OSDTEX_MAP_KINDS, i % OSDTEX_MAP_KINDS, path))
             otx_path_list_add(out, path);
-    }
     if (r->bakes)
         otx_bake_outputs_list(
             r->cage_obj, &r->bake_options,
@@ -363,14 +380,26 @@ otx_map_request_outputs(const otx_map_request *r, otx_path_list *out)
     otx_path_list_add(out, r->save);
 }
 
-/* Those of the material that are written beside the OBJ. */
+/* Of any exemplar: those that a bake has. */
+static uint32_t
+all_kinds(const otx_map_request *r)
+{
+    uint32_t kinds = 0;
+
+    for (int k = 0; k <= r->also.count; ++k)
+        kinds |= kinds_of(r, k);
+    return kinds;
+}
+
+/* Those of materials that are written beside the OBJ. */
 static bool
 maps_are_done(const otx_map_request *r, const char hash[OSDTEX_HASH_BYTES])
 {
     char path[OTX_MAP_PATH_BYTES];
 
-    for (int i = 0; r->maps && i < r->material.count; ++i)
-        if (!name_map(r, i, path) || !otx_up_to_date_check(path, hash))
+    for (int i = 0; r->maps && i < (r->also.count + 1) * OSDTEX_MAP_KINDS; ++i)
+        if (name_map(r, i / OSDTEX_MAP_KINDS, i % OSDTEX_MAP_KINDS, path) &&
+            !otx_up_to_date_check(path, hash))
             return false;
     return true;
 }
@@ -393,7 +422,6 @@ otx_map_request_is_done(
             return false;
     return maps_are_done(r, hash) &&
            (!r->bakes || otx_bake_outputs_are_done(
-                             r->cage_obj, &r->bake_options,
-                             otx_material_flags_kinds(&r->material),
+                             r->cage_obj, &r->bake_options, all_kinds(r),
                              texture_extension(r), hash));
 }

@@ -149,3 +149,11 @@ otx_path_list_find(const otx_path_list *list, const otx_path *path)
             return &list->items[i];
     return NULL;
 }
+
+bool
+otx_path_list_is_folder(const char *name)
+{
+    struct stat info;
+
+    return stat(name, &info) == 0 && S_ISDIR(info.st_mode);
+}

@@ -32,6 +32,9 @@ typedef struct otx_path_list
 void otx_path_list_add(otx_path_list *list, const char *name);
 void otx_path_list_free(otx_path_list *list);
 
+/* Whether there is a folder of this name. */
+bool otx_path_list_is_folder(const char *name);
+
 /* Whether two names are of one file. Of files that are not there, names that
  * differ in case only count as one: on many systems they are. */
 bool otx_path_list_is_same(const otx_path *a, const otx_path *b);

@@ -1,0 +1,216 @@
+/* test_height.c -- baked heights are the same from both sides of every rim, so
+ * that what they displace does not open. */
+#include "image/view.h"
+#include "unit/bake/flat.h"
+
+enum
+{
+    N = 3,
+    SIDE = 512,
+    MARGIN = 16,
+    TEXELS = 64,
+    SAMPLES = 33 /* of an edge */
+};
+
+/* Quads of all sizes. */
+static otx_surface *
+uneven(otx_run *run)
+{
+    static const float places[N + 1] = {0.0f, 0.6f, 1.9f, 3.0f};
+    otx_cage_options options = otx_cage_options_default();
+    otx_cage *cage = OTX_NEW(run->arena, otx_cage, 1);
+    otx_surface *surface = OTX_NEW(run->arena, otx_surface, 1);
+    otx_cage_input in = mesh_grid(run, N);
+    float *points = OTX_NEW(run->arena, float, 3 * (N + 1) * (N + 1));
+
+    for (int32_t v = 0; v < (N + 1) * (N + 1); ++v)
+    {
+        points[3 * v] = places[v % (N + 1)] + 0.05f * (float)(v / (N + 1));
+        points[3 * v + 1] = places[v / (N + 1)];
+        points[3 * v + 2] = 0.2f * (float)((v * 7) % 5);
+    }
+    in.points = points;
+    options.scheme = OTX_SCHEME_CATMARK;
+    *cage = mesh_build(run, &in, &options);
+    *surface = mesh_refine(run, cage, 2);
+    return surface;
+}
+
+/* A patch of its own for each face of the cage, turned and placed anyhow, so
+ * that every rim is a seam as well. */
+static otx_mapping *
+patches(otx_run *run, const otx_surface *surface)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+    otx_mapping *mapping = flat_mapping(run, surface, N);
+    const int32_t faces = leaf->face_count / (N * N);
+
+    mapping->scale = 2.0;
+    mapping->patch_count = N * N;
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        const uint64_t patch = (uint64_t)(f / faces);
+        const otx_vec2 x = otx_vec2_polar(6.0 * otx_random_unit(1, 1, patch));
+        const double shift = otx_random_unit(1, 2, patch);
+
+        mapping->face_patch[f] = (int32_t)patch;
+        for (int32_t c = leaf->face_first[f]; c < leaf->face_first[f + 1]; ++c)
+        {
+            const float *p = surface->points + 3 * leaf->face_verts[c];
+
+            mapping->uvs[2 * c] =
+                (float)(0.5 * (x.x * p[0] + x.y * p[1]) + shift);
+            mapping->uvs[2 * c + 1] = (float)(0.5 * (x.x * p[1] - x.y * p[0]));
+        }
+    }
+    return mapping;
+}
+
+/* Noise that tiles, and heights of it. */
+static otx_exemplar *
+noise(otx_run *run)
+{
+    otx_exemplar *exemplar = flat_ramp(run, TEXELS);
+    otx_companions *set = &exemplar->companions;
+
+    exemplar->wrap_x = exemplar->wrap_y = true;
+    assert_int_equal(
+        otx_image_create(run, run->arena, TEXELS, TEXELS, 1, &set->image),
+        OSDTEX_OK);
+    for (int32_t i = 0; i < TEXELS * TEXELS; ++i)
+        set->image.pixels[i] = (float)otx_random_unit(4, 5, (uint64_t)i);
+    set->maps[OTX_COMPANION_HEIGHT].is_there = true;
+    set->height_middle = 0.5;
+    set->height_range = 1.0;
+    return exemplar;
+}
+
+static void
+take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
+{
+    otx_bake_block one = *block;
+
+    one.pixels = block->maps[OTX_COMPANION_HEIGHT];
+    one.stride = block->map_strides[OTX_COMPANION_HEIGHT];
+    flat_take(user, slot, lane, &one);
+}
+
+static flat_levels
+bake(
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
+    const otx_layout *layout)
+{
+    const otx_bake_options options = {.kind = OTX_TEXEL_COLOR, .maps = true};
+    flat_levels out = {otx_pyramid_count(layout->side, layout->side), {{0}}};
+    const otx_bake_sink sink = {
+        .take = take, .put = flat_put, .user = &out, .share = 1.0};
+    otx_bake job;
+
+    assert_int_equal(
+        otx_bake_create(run, mapping, exemplar, layout, &options, &job),
+        OSDTEX_OK);
+    for (int32_t l = 0; l < out.count; ++l)
+        assert_int_equal(
+            otx_image_create(
+                run, run->arena, otx_pyramid_side(SIDE, l),
+                otx_pyramid_side(SIDE, l), 1, &out.levels[l]),
+            OSDTEX_OK);
+    assert_int_equal(otx_bake_tile(run, &job, 0, &sink), OSDTEX_OK);
+    return out;
+}
+
+/* Along edge k of a face. */
+static double
+look_up(
+    const otx_layout *layout, const otx_image *image, int32_t face, int32_t k,
+    double t)
+{
+    const otx_level *leaf = otx_surface_leaf(layout->surface);
+    const int32_t first = leaf->face_first[face];
+    const int32_t size = otx_level_face_size(leaf, face);
+    const float *a = layout->leaf_uvs + 2 * (first + k);
+    const float *b = layout->leaf_uvs + 2 * (first + (k + 1) % size);
+    float value;
+
+    otx_view_value(
+        otx_view_of(image, false, false),
+        (otx_vec2){
+            ((1.0 - t) * a[0] + t * b[0]) * image->width,
+            ((1.0 - t) * a[1] + t * b[1]) * image->height},
+        &value);
+    return value;
+}
+
+static int32_t
+edge_between(const otx_level *leaf, int32_t face, int32_t other)
+{
+    int32_t k = 0;
+
+    while (otx_level_neighbour(leaf, face, k) != other)
+        ++k;
+    return k;
+}
+
+/* The largest gap over all rims of a level. */
+static double
+largest_gap(const otx_layout *layout, const otx_image *image, int32_t *rims)
+{
+    const otx_level *leaf = otx_surface_leaf(layout->surface);
+    double largest = 0.0;
+
+    *rims = 0;
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        for (int32_t k = 0; k < otx_level_face_size(leaf, f); ++k)
+        {
+            const int32_t other = otx_layout_across(layout, f, k);
+
+            if (!layout->rim[leaf->face_first[f] + k] || other < f)
+                continue;
+            ++*rims;
+            for (int32_t s = 0; s < SAMPLES; ++s)
+            {
+                const double t = (double)s / (SAMPLES - 1);
+                const double here = look_up(layout, image, f, k, t);
+                const double there = look_up(
+                    layout, image, other, edge_between(leaf, other, f),
+                    1.0 - t);
+
+                largest = fmax(largest, fabs(here - there));
+            }
+        }
+    return largest;
+}
+
+static void
+test_rims_meet(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_surface *surface = uneven(run);
+    const otx_mapping *mapping = patches(run, surface);
+    const otx_layout layout =
+        flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, MARGIN);
+    const otx_exemplar *exemplar = noise(run);
+    const flat_levels b = bake(run, mapping, exemplar, &layout);
+
+    (void)state;
+    for (int32_t l = 0; MARGIN >> l > 0; ++l)
+    {
+        int32_t rims;
+        const double gap = largest_gap(&layout, &b.levels[l], &rims);
+
+        assert_true(rims > 2 * N * (N - 1));
+        if (!(gap <= 1e-4))
+            fail_msg("level %d: a gap of %g", l, gap);
+    }
+    test_run_destroy(run);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rims_meet),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
