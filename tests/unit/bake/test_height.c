@@ -1,5 +1,5 @@
 /* test_height.c -- baked heights are the same from both sides of every rim, so
- * that what they displace does not open. */
+ * that what they displace does not open; and baked normals are theirs. */
 #include "image/view.h"
 #include "unit/bake/flat.h"
 
@@ -9,7 +9,8 @@ enum
     SIDE = 512,
     MARGIN = 16,
     TEXELS = 64,
-    SAMPLES = 33 /* of an edge */
+    SAMPLES = 33, /* of an edge */
+    WAVES = 256   /* texels of a smooth picture */
 };
 
 /* Quads of all sizes. */
@@ -85,6 +86,49 @@ noise(otx_run *run)
     return exemplar;
 }
 
+/* Waves that tile, four to the picture's width, and their normals. */
+static otx_exemplar *
+waves(otx_run *run, double width)
+{
+    otx_exemplar *exemplar = flat_ramp(run, WAVES);
+    otx_companions *set = &exemplar->companions;
+    const double k = 8.0 * OTX_PI, range = 0.05;
+
+    exemplar->wrap_x = exemplar->wrap_y = true;
+    assert_int_equal(
+        otx_image_create(run, run->arena, WAVES, WAVES, 4, &set->image),
+        OSDTEX_OK);
+    for (int32_t y = 0; y < WAVES; ++y)
+        for (int32_t x = 0; x < WAVES; ++x)
+        {
+            float *p = otx_image_at(&set->image, x, y);
+            const double u = (x + 0.5) / WAVES, v = (y + 0.5) / WAVES;
+            const double c = range * k / width;
+
+            p[0] = (float)(-0.25 * c * cos(k * u));
+            p[1] = (float)(0.25 * c * sin(k * v));
+            p[2] = 1.0f;
+            p[3] = (float)(0.5 + 0.25 * (sin(k * u) + cos(k * v)));
+        }
+    set->maps[OTX_COMPANION_NORMAL].is_there = true;
+    set->maps[OTX_COMPANION_HEIGHT] =
+        (otx_companion){.is_there = true, .first = 3};
+    set->height_middle = 0.5;
+    set->height_range = range;
+    return exemplar;
+}
+
+static void
+take_normals(
+    void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
+{
+    otx_bake_block one = *block;
+
+    one.pixels = block->maps[OTX_COMPANION_NORMAL];
+    one.stride = block->map_strides[OTX_COMPANION_NORMAL];
+    flat_take(user, slot, lane, &one);
+}
+
 static void
 take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 {
@@ -95,15 +139,18 @@ take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
     flat_take(user, slot, lane, &one);
 }
 
+/* One of the maps, by `take`. */
 static flat_levels
 bake(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
-    const otx_layout *layout)
+    const otx_layout *layout,
+    void (*taken)(void *, int32_t, int32_t, const otx_bake_block *),
+    int32_t channels)
 {
     const otx_bake_options options = {.kind = OTX_TEXEL_COLOR, .maps = true};
     flat_levels out = {otx_pyramid_count(layout->side, layout->side), {{0}}};
     const otx_bake_sink sink = {
-        .take = take, .put = flat_put, .user = &out, .share = 1.0};
+        .take = taken, .put = flat_put, .user = &out, .share = 1.0};
     otx_bake job;
 
     assert_int_equal(
@@ -113,7 +160,7 @@ bake(
         assert_int_equal(
             otx_image_create(
                 run, run->arena, otx_pyramid_side(SIDE, l),
-                otx_pyramid_side(SIDE, l), 1, &out.levels[l]),
+                otx_pyramid_side(SIDE, l), channels, &out.levels[l]),
             OSDTEX_OK);
     assert_int_equal(otx_bake_tile(run, &job, 0, &sink), OSDTEX_OK);
     return out;
@@ -190,7 +237,7 @@ test_rims_meet(void **state)
     const otx_layout layout =
         flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, MARGIN);
     const otx_exemplar *exemplar = noise(run);
-    const flat_levels b = bake(run, mapping, exemplar, &layout);
+    const flat_levels b = bake(run, mapping, exemplar, &layout, take, 1);
 
     (void)state;
     for (int32_t l = 0; MARGIN >> l > 0; ++l)
@@ -205,11 +252,125 @@ test_rims_meet(void **state)
     test_run_destroy(run);
 }
 
+/* The normal of a baked height at a texel of a leaf face, in the frame of the
+ * texture, from differences over two texels; false near the face's rim. */
+static bool
+normal_of(
+    const otx_layout *layout, const otx_image *image, int32_t face, int32_t x,
+    int32_t y, double n[3])
+{
+    const otx_level *leaf = otx_surface_leaf(layout->surface);
+    const int32_t first = leaf->face_first[face];
+    otx_vec2 q[3];
+    otx_vec3 p[3];
+
+    for (int k = 0; k < 3; ++k)
+    {
+        const int32_t c = first + (k == 2 ? 3 : k);
+
+        q[k] = (otx_vec2){
+            (double)layout->leaf_uvs[2 * c] * SIDE,
+            (double)layout->leaf_uvs[2 * c + 1] * SIDE};
+        p[k] = otx_vec3_load(layout->surface->points, leaf->face_verts[c]);
+    }
+
+    const otx_vec2 q1 = otx_vec2_sub(q[1], q[0]), q2 = otx_vec2_sub(q[2], q[0]);
+    const otx_vec3 p1 = otx_vec3_sub(p[1], p[0]), p2 = otx_vec3_sub(p[2], p[0]);
+    const double area2 = otx_vec2_cross(q1, q2);
+    const otx_vec2 at = {x + 0.5 - q[0].x, y + 0.5 - q[0].y};
+    const double s = otx_vec2_cross(at, q2) / area2;
+    const double t = otx_vec2_cross(q1, at) / area2;
+    const double rim = 2.0 / sqrt(fabs(area2));
+
+    if (s < rim || t < rim || s + t > 1.0 - rim)
+        return false;
+
+    const otx_vec3 dx = otx_vec3_mix(q2.y / area2, p1, -q1.y / area2, p2);
+    const otx_vec3 dy = otx_vec3_mix(-q2.x / area2, p1, q1.x / area2, p2);
+    const otx_vec3 along = otx_vec3_unit(dx);
+    const double skew = otx_vec3_dot(dy, along);
+    const double across =
+        otx_vec3_length(otx_vec3_sub(dy, otx_vec3_scale(skew, along)));
+    const double h_x = 0.5 * ((double)*otx_image_at(image, x + 1, y) -
+                              (double)*otx_image_at(image, x - 1, y));
+    const double h_y = 0.5 * ((double)*otx_image_at(image, x, y + 1) -
+                              (double)*otx_image_at(image, x, y - 1));
+    const double g_x = h_x / otx_vec3_length(dx);
+    const double g_y = (h_y - g_x * skew) / across;
+    const double length = sqrt(1.0 + g_x * g_x + g_y * g_y);
+
+    n[0] = -g_x / length;
+    n[1] = -g_y / length;
+    n[2] = 1.0 / length;
+    return true;
+}
+
+static double
+degrees_between(const float *texel, const double n[3])
+{
+    double dot = 0.0;
+
+    for (int k = 0; k < 3; ++k)
+        dot += (2.0 * (double)texel[k] - 1.0) * n[k];
+    return acos(fmin(dot, 1.0)) * 180.0 / OTX_PI;
+}
+
+/* On patches at all angles, on quads of all shapes. */
+static void
+test_normals_are_of_the_heights(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_surface *surface = uneven(run);
+    const otx_level *leaf = otx_surface_leaf(surface);
+    const otx_mapping *mapping = patches(run, surface);
+    const otx_layout layout =
+        flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, MARGIN);
+    const otx_exemplar *exemplar = waves(run, mapping->scale);
+    const flat_levels normals =
+        bake(run, mapping, exemplar, &layout, take_normals, 3);
+    const flat_levels heights = bake(run, mapping, exemplar, &layout, take, 1);
+    double sum = 0.0, tilt = 0.0;
+    int32_t count = 0, far = 0;
+
+    (void)state;
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        const float *uv = layout.leaf_uvs + 2 * leaf->face_first[f];
+        const int32_t x0 = (int32_t)(uv[0] * SIDE),
+                      y0 = (int32_t)(uv[1] * SIDE);
+
+        for (int32_t i = 0; i < 64 * 64; ++i)
+        {
+            static const double up[3] = {0.0, 0.0, 1.0};
+            const int32_t x = x0 - 32 + i % 64, y = y0 - 32 + i / 64;
+            double n[3], angle;
+
+            if (x < 1 || y < 1 || x > SIDE - 2 || y > SIDE - 2 ||
+                !normal_of(&layout, &heights.levels[0], f, x, y, n))
+                continue;
+            angle = degrees_between(otx_image_at(&normals.levels[0], x, y), n);
+            tilt += degrees_between(otx_image_at(&normals.levels[0], x, y), up);
+            sum += angle;
+            far += angle > 5.0;
+            ++count;
+        }
+    }
+    print_message(
+        "%d texels, tilted by %.2f degrees in the mean, off by %.3f\n", count,
+        tilt / count, sum / count);
+    assert_true(count > 5000);
+    assert_true(tilt / count > 5.0);
+    assert_true(sum / count < 1.0);
+    assert_true(far < count / 100);
+    test_run_destroy(run);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rims_meet),
+        cmocka_unit_test(test_normals_are_of_the_heights),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
