@@ -89,7 +89,8 @@ typedef struct osdtex_exemplar_options
      * done to theirs. */
     const osdtex_companion *maps; /* [map_count] */
     int32_t map_count;
-    int32_t reserved;
+    int32_t normals_y_down; /* 1: normal maps are written as DirectX has them;
+                             * NAME.usda and NAME.mtlx take them to be up */
     double height_range;  /* scene units from the lowest to the highest value of
                            * a height map, 0 and 1; 0: a twentieth of the
                            * exemplar's width */

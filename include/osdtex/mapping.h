@@ -229,7 +229,7 @@ typedef struct osdtex_mapping_read_options
     /* The other maps of the first exemplar's material: exemplar.h. */
     const osdtex_companion *maps; /* [map_count] */
     int32_t map_count;
-    int32_t reserved;
+    int32_t normals_y_down;
     double height_range, height_middle;
     /* As osdtex_map_options.heal: seams are mended once the mapping is read. 0:
      * as they were saved. */

@@ -142,5 +142,6 @@ otx_companion_pictures_take(
         exemplar->wrap_x, exemplar->wrap_y, out));
     out->height_range = options->height_range;
     out->height_middle = options->height_middle;
+    out->written_y_down = options->normals_y_down != 0;
     return OSDTEX_OK;
 }

@@ -359,6 +359,7 @@ read_exemplar(loader *l, int32_t k)
     if (s->rearranged)
         OTX_TRY(check_texels(l, &s->cuts));
     s->options.tileable = OSDTEX_TILEABLE_KEEP;
+    s->options.normals_y_down = k == 0 && l->options.normals_y_down;
     /* Another picture says itself what its colours are. */
     if (swapped)
         s->options.from = l->options.from;

@@ -51,6 +51,7 @@ typedef struct otx_companions
      * number of scene units, or where that is 0 OTX_COMPANIONS_RANGE of the
      * exemplar's width. */
     double height_range, height_middle;
+    bool written_y_down; /* normals, as DirectX has them */
 } otx_companions;
 
 /* Share of the width that heights reach over where nobody says. */

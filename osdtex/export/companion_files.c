@@ -84,12 +84,17 @@ take_out(
 }
 
 static void
-encode(otx_image *image)
+encode(otx_image *image, bool y_down)
 {
     const size_t count = (size_t)image->width * (size_t)image->height;
 
     for (size_t i = 0; i < count; ++i)
-        otx_companion_encode_normal(image->pixels + 3 * i);
+    {
+        float *n = image->pixels + 3 * i;
+
+        n[1] = y_down ? -n[1] : n[1];
+        otx_companion_encode_normal(n);
+    }
 }
 
 /* Levels 0, 1, ... down to one texel. */
@@ -121,7 +126,7 @@ write_map(
     OTX_TRY(take_out(run, &exemplar->companions, kind, width, &map));
     OTX_TRY(make_levels(run, exemplar, &map, &levels));
     for (int32_t i = 0; kind == OTX_COMPANION_NORMAL && i < levels.count; ++i)
-        encode(&levels.levels[i]);
+        encode(&levels.levels[i], exemplar->companions.written_y_down);
     options.wrap_x = exemplar->tiles.cell == 0 && exemplar->wrap_x;
     options.wrap_y = exemplar->tiles.cell == 0 && exemplar->wrap_y;
     options.levels = levels.levels + 1;

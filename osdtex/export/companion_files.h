@@ -18,8 +18,9 @@ otx_data_maps otx_companion_files_names(
 
 /* Writes each map of an exemplar as a tiled, mip-mapped EXR of `set`, called as
  * the colour's file `path` is with "_normal.exr" and so on in the place of its
- * extension. Normals are (n + 1) / 2, y up, of length 1 at every level; heights
- * are scene units where the picture is `width` of them wide. IO, MEMORY. */
+ * extension. Normals are (n + 1) / 2, y up, of length 1 at every level, and y
+ * down where the set says so; heights are scene units where the picture is
+ * `width` of them wide. IO, MEMORY. */
 otx_status otx_companion_files_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const otx_exemplar *exemplar, double width);

@@ -27,7 +27,6 @@ typedef struct otx_look_options
     const char *texture_comment;       /* for the textures; NULL none */
     double meters_per_unit;            /* of NAME.usda; 0: by the receiver */
     bool z_up;                         /* of NAME.usda */
-    bool normals_y_down; /* baked normal maps are written as DirectX has them */
     bool normals; /* of the limit surface in NAME_cage.obj, and of a plain mesh
                    * in NAME.usda; those of the mesh are mesh->normals */
     /* What is written of the refined mesh, together with the rest; its path and

@@ -147,6 +147,39 @@ class Material(ProgramTest):
         self.refuse(2, "as the colour of a material is", "--material",
                     self.set)
 
+    def test_cuts_are_those_of_the_colour(self):
+        """Made to tile: the same patches."""
+        for name, more in (
+                ("a", ("--material", self.set)),
+                ("b", (self.color,))):
+            result = self.bake(
+                *more, "--tileable", "make", "--wrap", "no", "--extra",
+                "patch,uv", name=f"{name}.obj")
+            self.assert_exit(result, 0)
+        for kind in "patch", "uv":
+            self.assertEqual(
+                self.pixels(f"a_{kind}.1001.exr"),
+                self.pixels(f"b_{kind}.1001.exr"))
+
+    def test_several(self):
+        """A material for each exemplar; what one lacks is neutral there."""
+        cage = self.folder / "two.obj"
+        cage.write_text(
+            "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n"
+            "usemtl A\nf 1 2 5 4\nusemtl B\nf 2 3 6 5\n")
+        other = self.folder / "other"
+        other.mkdir()
+        shutil.copy(EXEMPLARS / "gravel_tile.png", other / "G_Color.png")
+        write_png(other / "G_Roughness.png", (10,))
+        result = self.run_program(
+            "map", cage, "--material", self.set, "--also", f"B={other}",
+            "--level", "3", "-o", self.folder / "t.obj", "--bake", *BAKE)
+        self.assert_exit(result, 0)
+        for name in ("t_1_normal", "t_2_roughness", "t_normal.1001",
+                     "t_roughness.1001", "t_height.1001"):
+            self.assertTrue((self.folder / f"{name}.exr").exists(), name)
+        self.assertFalse((self.folder / "t_2_normal.exr").exists())
+
     def twice(self):
         write_png(self.set / "Peb_1K_disp.exr", (1,))
         return self.set
