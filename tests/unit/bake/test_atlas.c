@@ -104,6 +104,17 @@ off_grid(double value, double step)
     return fabs(value - step * nearbyint(value / step));
 }
 
+/* The longest side of any quad, scene units. */
+static double
+longest_of(const otx_cage *cage, const double *extents)
+{
+    double longest = 0.0;
+
+    for (int32_t i = 0; i < 2 * cage->face_count; ++i)
+        longest = fmax(longest, extents[i]);
+    return longest;
+}
+
 /* Quads fill their blocks: with margins they start and end on multiples of
  * twice the margin, so that the first mip levels never straddle two. */
 static void
@@ -137,8 +148,57 @@ cells_lie_on_a_grid_as_large_as_their_faces(void **state)
             assert_true(off_grid(b.width, 2 * margin) < 0.01);
             assert_true(off_grid(b.height, 2 * margin) < 0.01);
             assert_true(b.width > wanted - 0.01);
-            assert_true(b.width < wanted + 2 * margin + 0.01);
+            assert_true(
+                b.width < longest_of(&cage, extents) * atlas.texels_per_unit +
+                              2 * margin + 0.01);
         }
+        test_run_destroy(run);
+    }
+}
+
+/* The side of a block that edge k of its quad is, in texels. */
+static double
+side_of(const block *b, int32_t k)
+{
+    return k % 2 == 0 ? b->width : b->height;
+}
+
+/* Quads that share an edge have as many texels along it. */
+static void
+sides_meet(void **state)
+{
+    const int32_t side = 2048;
+
+    (void)state;
+    for (size_t i = 0; i < sizeof CAGES / sizeof *CAGES; ++i)
+    {
+        otx_run *run = test_run_create();
+        const otx_cage cage = cage_of(run, CAGES[i]);
+        const otx_surface surface = mesh_refine(run, &cage, 1);
+        const otx_level *level = &surface.levels[0];
+        const otx_atlas_options options = {side, 0, 0.0};
+        otx_atlas atlas;
+
+        assert_int_equal(
+            otx_atlas_pack(run, &surface, &options, &atlas), OSDTEX_OK);
+        for (int32_t f = 0; f < level->face_count; ++f)
+            for (int32_t k = 0; k < otx_level_face_size(level, f); ++k)
+            {
+                const int32_t other = otx_level_neighbour(level, f, k);
+                const block here = block_of(&cage, &atlas, f, side);
+                block there;
+                int32_t back = 0;
+
+                if (other < 0 || otx_level_face_size(level, f) != 4 ||
+                    otx_level_face_size(level, other) != 4)
+                    continue;
+                there = block_of(&cage, &atlas, other, side);
+                while (level->face_edges[level->face_first[other] + back] !=
+                       level->face_edges[level->face_first[f] + k])
+                    ++back;
+                assert_true(
+                    fabs(side_of(&here, k) - side_of(&there, back)) < 0.01);
+            }
         test_run_destroy(run);
     }
 }
@@ -234,6 +294,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blocks_are_apart),
         cmocka_unit_test(cells_lie_on_a_grid_as_large_as_their_faces),
+        cmocka_unit_test(sides_meet),
         cmocka_unit_test(what_is_left_open_is_chosen),
         cmocka_unit_test(more_faces_than_a_tile_holds_are_told),
         cmocka_unit_test(what_cannot_be_packed_is_refused),
