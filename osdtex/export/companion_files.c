@@ -152,3 +152,14 @@ otx_companion_files_write(
     }
     return OSDTEX_OK;
 }
+
+void
+otx_companion_files_say_gaps(otx_run *run, bool is_atlas, const char *height)
+{
+    if (!is_atlas && height)
+        otx_note(
+            run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
+            "on the cage's own UVs heights cannot be the same from both sides "
+            "of a cut everywhere, so what they displace may open there; an "
+            "atlas of quads has no such gaps");
+}

@@ -25,4 +25,11 @@ otx_status otx_companion_files_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const otx_exemplar *exemplar, double width);
 
+/* Says that heights on a cage's own UVs do not meet everywhere: the two sides
+ * of a cut have texels of their own.
+ *
+ *   height  what their file is called; NULL there are none */
+void
+otx_companion_files_say_gaps(otx_run *run, bool is_atlas, const char *height);
+
 #endif

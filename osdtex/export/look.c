@@ -650,18 +650,6 @@ write_texts(const writer *w)
     return write_cage(&texts);
 }
 
-/* Where the two sides of a cut have texels of their own. */
-static void
-say_heights(const writer *w)
-{
-    if (!w->layout->is_atlas && map_name(w, OTX_COMPANION_HEIGHT))
-        otx_note(
-            w->run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
-            "on the cage's own UVs heights cannot be the same from both sides "
-            "of a cut everywhere, so what they displace may open there; an "
-            "atlas of quads has no such gaps");
-}
-
 static otx_status
 write_files(const writer *w)
 {
@@ -671,7 +659,8 @@ write_files(const writer *w)
         OTX_TRY(
             otx_layout_find_tile(w->run, w->layout, w->options->udim, &tile));
     say_tiles(w);
-    say_heights(w);
+    otx_companion_files_say_gaps(
+        w->run, w->layout->is_atlas, map_name(w, OTX_COMPANION_HEIGHT));
     OTX_TRY(write_kind(w, OTX_TEXEL_COLOR));
     for (int32_t kind = 1; kind < OTX_TEXEL_KIND_COUNT; ++kind)
         if (w->options->extras[kind])
