@@ -5,6 +5,7 @@ directory is the root of the project."""
 
 import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -67,6 +68,12 @@ class ProgramTest(unittest.TestCase):
                   if l.startswith("osdtex: error: ")]
         self.assertTrue(errors, result.stderr)
         self.assertIn(words, "\n".join(errors))
+
+    def picture(self, name):
+        """A texture but for its mark, which no two jobs have alike."""
+        return re.sub(
+            rb"osdtex job [0-9a-f]{32} of .*? seal [0-9a-f]{32}", b"",
+            (self.folder / name).read_bytes())
 
     def assert_nothing_written(self):
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), [])
