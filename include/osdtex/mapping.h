@@ -179,7 +179,10 @@ typedef struct osdtex_write_options
     int32_t without_image; /* 1: neither write nor replace the EXR */
     int32_t normals;       /* 1: `vn` too, of the limit surface, one for each
                             * side of an infinitely sharp crease */
-    int32_t reserved;
+    int32_t resolution;    /* texels of a side of the texture that pastes are
+                            * baked into; 0: 512 to 8192, as the exemplar's
+                            * own density asks for. Others have no such
+                            * texture */
 } osdtex_write_options;
 
 static inline osdtex_write_options

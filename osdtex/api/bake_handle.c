@@ -2,6 +2,7 @@
 #include "api/bake_handle.h"
 #include "api/call.h"
 #include "api/handle.h"
+#include "api/mapping_handle.h"
 #include "export/look.h"
 
 #include <math.h>
@@ -111,11 +112,7 @@ bake(
     OTX_TRY(otx_bake_handle_options(&call->run, options, &ours));
     OTX_TRY(otx_call_options(&call->run, &mesh, sizeof mesh, ours.mesh));
     OTX_TRY(check_files(&call->run, path, &ours, &mesh));
-    model = (otx_model_options){
-        .without_image = mesh.without_image != 0,
-        .normals = mesh.normals != 0,
-        .comment_count = mesh.comment_count,
-        .comments = mesh.comments};
+    model = otx_mapping_handle_model_options(&mesh);
     how = look_options(&ours, path);
     how.mesh = ours.mesh ? &model : NULL;
     if (ours.preview_png)

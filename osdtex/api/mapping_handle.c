@@ -6,7 +6,6 @@
 #include "api/map_resolve.h"
 #include "api/method_settings.h"
 #include "api/several.h"
-#include "export/model.h"
 #include "word/near.h"
 
 #include <string.h>
@@ -164,13 +163,24 @@ osdtex_mapping_destroy(osdtex_mapping *mapping)
         otx_arena_destroy(mapping->arena);
 }
 
+otx_model_options
+otx_mapping_handle_model_options(const osdtex_write_options *options)
+{
+    return (otx_model_options){
+        .without_image = options->without_image != 0,
+        .normals = options->normals != 0,
+        .resolution = options->resolution,
+        .comment_count = options->comment_count,
+        .comments = options->comments};
+}
+
 static otx_status
 write_mapping(
     otx_run *run, const osdtex_mapping *mapping, const char *path,
     const osdtex_write_options *options)
 {
     osdtex_write_options ours = osdtex_write_options_default();
-    otx_model_options how = {.path = path};
+    otx_model_options how;
     otx_model_files files;
 
     OTX_TRY(otx_call_options(run, &ours, sizeof ours, options));
@@ -179,10 +189,8 @@ write_mapping(
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "export", OTX_NOWHERE,
             "no mapping, no path, or no comments are given");
-    how.without_image = ours.without_image != 0;
-    how.normals = ours.normals != 0;
-    how.comment_count = ours.comment_count;
-    how.comments = ours.comments;
+    how = otx_mapping_handle_model_options(&ours);
+    how.path = path;
     return otx_model_write(
         run, &mapping->mapping, mapping->exemplars, &how, &files);
 }

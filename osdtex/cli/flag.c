@@ -151,7 +151,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "onto, on UDIM tiles, with area, not on top of each other)"},
     [OTX_FLAG_RESOLUTION] =
         {"resolution", 0, OTX_FLAG_GROUP_BAKE, "PX",
-         "texels of a UDIM tile's side (default 4096)"},
+         "texels of a UDIM tile's side (default 4096), and of the texture that "
+         "pastes are baked into (default: as fine as the exemplar)"},
     [OTX_FLAG_TEXELS_PER_UNIT] =
         {"texels-per-unit", 0, OTX_FLAG_GROUP_BAKE, "D",
          "density of an atlas, which takes as many UDIM tiles as that needs "

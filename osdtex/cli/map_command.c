@@ -121,6 +121,8 @@ write_models(otx_session *session, const job *j, const char *const *comments)
     osdtex_bake_options bake = r->bake_options;
 
     options.normals = r->values->text[OTX_FLAG_NORMALS] != NULL;
+    if (r->values->text[OTX_FLAG_RESOLUTION])
+        options.resolution = bake.resolution;
     options.comments = bake.comments = comments;
     options.comment_count = bake.comment_count = 1;
     if (!r->bakes)

@@ -28,15 +28,15 @@ otx_baked_texture_is_needed(const otx_mapping *mapping)
 otx_status
 otx_baked_texture_lay_out(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
-    otx_layout *out)
+    int32_t side, otx_layout *out)
 {
     const double texels = exemplars->linear.width / mapping->scale;
     const double needed =
         sqrt(mapping->surface->area * texels * texels / FILLED);
     otx_layout_options options = {
-        .source = OTX_LAYOUT_ATLAS, .side = SIDE_LEAST};
+        .source = OTX_LAYOUT_ATLAS, .side = side ? side : SIDE_LEAST};
 
-    while (options.side < needed && options.side < SIDE_MOST)
+    while (!side && options.side < needed && options.side < SIDE_MOST)
         options.side *= 2;
     return otx_layout_build(run, mapping, &options, out);
 }

@@ -11,11 +11,11 @@
  * cannot say. */
 bool otx_baked_texture_is_needed(const otx_mapping *mapping);
 
-/* An atlas of one tile that is as fine as the exemplar is on the surface, from
- * 512 to 8192 texels a side. */
+/* An atlas of one tile of `side` texels a side; 0: as fine as the exemplar is
+ * on the surface, from 512 to 8192. */
 otx_status otx_baked_texture_lay_out(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
-    otx_layout *out);
+    int32_t side, otx_layout *out);
 
 /* Bakes the colour onto `layout` as the texture `path` of `set`. ARGUMENT, IO,
  * NUMERIC, MEMORY, CANCELLED. */

@@ -512,14 +512,14 @@ write_model(
 static otx_status
 flatten_pastes(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
-    otx_layout *layout, otx_mapping *out)
+    int32_t side, otx_layout *layout, otx_mapping *out)
 {
     const int32_t corners = otx_surface_leaf(mapping->surface)->corner_count;
     float *uvs = OTX_NEW(run->scratch, float, 2 * (size_t)corners);
 
     if (!uvs)
         return otx_fail_memory(run, STAGE);
-    OTX_TRY(otx_baked_texture_lay_out(run, mapping, exemplars, layout));
+    OTX_TRY(otx_baked_texture_lay_out(run, mapping, exemplars, side, layout));
     memcpy(uvs, layout->leaf_uvs, 2 * sizeof *uvs * (size_t)corners);
     *out = *mapping;
     out->uvs = uvs;
@@ -538,7 +538,8 @@ write_named(
 
     if (otx_baked_texture_is_needed(mapping))
     {
-        OTX_TRY(flatten_pastes(run, mapping, exemplars, &layout, &flat));
+        OTX_TRY(flatten_pastes(
+            run, mapping, exemplars, options->resolution, &layout, &flat));
         from.layout = &layout;
     }
     return write_model(run, &flat, &from, names, options, uv_count);

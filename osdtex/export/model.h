@@ -16,6 +16,7 @@ typedef struct otx_model_options
     const char *path;   /* of the OBJ; ".obj" is required */
     bool normals;       /* `vn` too: see export/corner_normals.h */
     bool without_image; /* leave NAME.exr as it is; the MTL names it still */
+    int32_t resolution; /* of the texture of pastes, 0: of their density */
     /* NULL: the files are put into place at once. Else they join this set,
      * which the caller commits with whatever else belongs to the job. */
     otx_atomic_file_set *set;

@@ -42,12 +42,13 @@ def case_of(number):
     if rng.random() < 0.2:
         words += ["--scale", str(rng.choice((1e-3, 0.5, 4, 1e4, 1e10)))]
     command = "map"
-    # A map of pastes is as large a texture as the cage is: minutes, for some.
-    if rng.random() < 0.4 or method == "lapped":
+    if rng.random() < 0.4:
         command = "bake"
         words += ["--resolution", "64", "--margin", "4"]
         words += rng.choice(([], ["--uvs", "atlas"], ["--uvs", "own"],
                              ["--seam-blend", "4"], ["--extra", "patch,uv"]))
+    elif method == "lapped":
+        words += ["--resolution", "256"]
     picture = rng.choice(PICTURES)
     if method == "tile":
         picture = TILES

@@ -2,6 +2,7 @@
 """Lapped textures through the program: what is written, and saved."""
 
 import json
+import struct
 
 from program import CAGES, EXEMPLARS, ProgramTest, main
 
@@ -11,10 +12,6 @@ HOW = ("--method", "lapped", "--level", "3", "--scale", "2")
 
 
 class Lapped(ProgramTest):
-    def pixels(self):
-        """The end of the texture: its header has the name of the job in it."""
-        return (self.folder / "out.exr").read_bytes()[-4000:]
-
     def test_mesh_gets_an_atlas_and_its_texture(self):
         report = self.folder / "out.json"
         result = self.run_map(CAGE, PICTURE, *HOW, "--json-report", report)
@@ -37,11 +34,19 @@ class Lapped(ProgramTest):
     def test_saved_and_written_again_is_the_same(self):
         saved = self.folder / "it.osdtex"
         self.assert_exit(self.run_map(CAGE, PICTURE, *HOW, "--save", saved), 0)
-        first = self.pixels()
+        first = self.picture("out.exr")
         result = self.run_program(
             "map", "--from", saved, "-o", self.folder / "out.obj")
         self.assert_exit(result, 0)
-        self.assertEqual(first, self.pixels())
+        self.assertEqual(first, self.picture("out.exr"))
+
+    def test_texture_as_large_as_asked(self):
+        result = self.run_map(CAGE, PICTURE, *HOW, "--resolution", "256")
+        self.assert_exit(result, 0)
+        header = (self.folder / "out.exr").read_bytes()
+        at = header.index(b"dataWindow\0box2i\0") + 17 + 4
+        self.assertEqual(struct.unpack("<4i", header[at:at + 16]),
+                         (0, 0, 255, 255))
 
     def test_what_takes_for_ever_is_refused(self):
         result = self.run_map(CAGE, PICTURE, *HOW, "--scale", "1e-4")
