@@ -358,6 +358,23 @@ prepare(otx_session *session, job *j)
     return status;
 }
 
+/* Flags of the bake where nothing is baked. Two of them have a say without:
+ * the size of the texture of pastes, and healing in previews and what is saved,
+ * whose loss in UVs the library tells. */
+static void
+say_unused(otx_session *session, const otx_map_request *r)
+{
+    for (int id = 0; !r->bakes && id < OTX_FLAG_COUNT; ++id)
+        if (r->values->text[id] &&
+            otx_flag_at((otx_flag_id)id)->group == OTX_FLAG_GROUP_BAKE &&
+            id != OTX_FLAG_RESOLUTION && id != OTX_FLAG_HEAL)
+            otx_session_say(
+                session,
+                "warning: --%s is for a bake, which only --bake asks "
+                "for here",
+                otx_flag_at((otx_flag_id)id)->name);
+}
+
 static int
 run(const otx_flag_values *values, bool bake_only)
 {
@@ -369,6 +386,7 @@ run(const otx_flag_values *values, bool bake_only)
         return OTX_EXIT_USAGE;
     if (!otx_session_begin(&session, values))
         return session.exit_code;
+    say_unused(&session, &j.request);
     status = prepare(&session, &j);
     if (status == OSDTEX_OK && values->text[OTX_FLAG_UPDATE] && j.has_hash &&
         otx_map_request_is_done(&j.request, j.hash))

@@ -545,6 +545,25 @@ write_named(
     return write_model(run, &flat, &from, names, options, uv_count);
 }
 
+/* What the mapping has and its UVs, or the texture of its pastes, have not. */
+static void
+say_what_is_left(
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
+    const char *path)
+{
+    if (mapping->field)
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, STAGE, otx_where_file(path),
+            "UVs cannot say what was healed, so seams are in it as they were; "
+            "a bake has them healed");
+    if (otx_baked_texture_is_needed(mapping) &&
+        otx_companions_are_there(&exemplars->companions))
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, STAGE, otx_where_file(path),
+            "of pastes only the colour is written beside the mesh; a bake has "
+            "all maps of the material");
+}
+
 otx_status
 otx_model_write(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
@@ -562,6 +581,7 @@ otx_model_write(
     OTX_TRY(otx_names_number(
         run, run->arena, textures, otx_texture_file_extension(exemplars),
         &names));
+    say_what_is_left(run, mapping, exemplars, names.obj);
     status = write_named(run, mapping, exemplars, options, &names, &uv_count);
     otx_arena_release(run->scratch, mark);
     if (status != OSDTEX_OK)

@@ -48,6 +48,15 @@ class Lapped(ProgramTest):
         self.assertEqual(struct.unpack("<4i", header[at:at + 16]),
                          (0, 0, 255, 255))
 
+    def test_maps_of_a_material_are_missed_aloud(self):
+        """Only the colour is baked beside the mesh."""
+        result = self.run_program(
+            "map", CAGE, *HOW, "--level", "1", "--resolution", "64", "--material",
+            EXEMPLARS.parent / "materials" / "waves", "-o",
+            self.folder / "out.obj")
+        self.assert_exit(result, 0)
+        self.assertIn("of pastes only the colour", result.stderr)
+
     def test_what_takes_for_ever_is_refused(self):
         result = self.run_map(CAGE, PICTURE, *HOW, "--scale", "1e-4")
         self.assertNotEqual(result.returncode, 0)

@@ -134,6 +134,14 @@ class Mistakes(ProgramTest):
         self.assert_exit(result, 0)
         self.assertIn("has no first patch", result.stderr)
 
+    def test_flags_of_a_bake_that_is_not_made(self):
+        result = self.run_map(
+            CAGES / "torus.obj", EXEMPLARS / "bricks_tile.png", "--level", "1",
+            "--margin", "8", "--extra", "uv")
+        self.assert_exit(result, 0)
+        for flag in "--margin", "--extra":
+            self.assertIn(f"warning: {flag} is for a bake", result.stderr)
+
     def test_render_values(self):
         out = self.folder / "x.png"
         for flag, value in (("--size", "12"), ("--size", "0x4"),
