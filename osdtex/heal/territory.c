@@ -5,10 +5,20 @@
 
 enum
 {
-    ROUNDS = 5 /* of flattening */
+    ROUNDS = 5,  /* of flattening */
+    COLLARS = 2, /* widths that are tried, and one more for each halving */
+    HALVINGS = 8 /* of cores that fold */
 };
 
 #define BEND 1.0 /* how much borders of cores prefer bends */
+
+/* Cores that wait to be laid out, of the leaf level. */
+typedef struct core_list
+{
+    otx_cluster *cores; /* [leaf face_count] */
+    int32_t *exemplar;  /* likewise */
+    int32_t count;
+} core_list;
 
 /* Charts being laid out; each has an arena, every thread a space. */
 typedef struct layout_job
@@ -17,11 +27,12 @@ typedef struct layout_job
     const otx_surface *surface;
     const otx_dual *leaves;
     const otx_territory_options *options;
-    const otx_cluster *clusters; /* [count] of the leaf level */
+    const otx_cluster *clusters; /* [count] */
     otx_chart_space *spaces;
     otx_arena **arenas;
     otx_chart *charts;
     int32_t count;
+    int32_t collars; /* widths to try */
 } layout_job;
 
 /* Leaf faces that show exemplar k; the count. */
@@ -37,29 +48,36 @@ faces_of(const otx_mapping *mapping, int32_t k, int32_t *out)
     return count;
 }
 
-/* Cores of one exemplar, appended to those of the others. */
+/* The leaf faces that show exemplar k. */
 static otx_status
-append_cores(
-    otx_run *run, const otx_mapping *mapping, const otx_growing *how, int32_t k,
-    const otx_territory_options *options, otx_cluster *all, int32_t *exemplar,
-    int32_t *count)
+region_of(
+    otx_run *run, const otx_mapping *mapping, const otx_dual *dual, int32_t k,
+    otx_cluster *out)
 {
-    const otx_dual *dual = how->dual;
-    const double side = options->side / options->texels;
     int32_t *faces = OTX_NEW(run->scratch, int32_t, dual->level->face_count);
-    otx_cluster region = {.level = dual->level_index, .faces = faces};
-    otx_cluster_list list;
 
     if (!faces)
         return otx_fail_memory(run, "heal");
-    region.face_count = faces_of(mapping, k, faces);
-    for (int32_t i = 0; i < region.face_count; ++i)
-        region.area += dual->areas[faces[i]];
-    OTX_TRY(otx_cluster_grow(run, how, &region, side * side, 1, &list));
+    *out = (otx_cluster){.level = dual->level_index, .faces = faces};
+    out->face_count = faces_of(mapping, k, faces);
+    for (int32_t i = 0; i < out->face_count; ++i)
+        out->area += dual->areas[faces[i]];
+    return OSDTEX_OK;
+}
+
+/* Parts a region into cores of about an area, at least `minimum` of them. */
+static otx_status
+append_cores(
+    otx_run *run, const otx_growing *how, const otx_cluster *region,
+    int32_t exemplar, double area, int32_t minimum, core_list *out)
+{
+    otx_cluster_list list;
+
+    OTX_TRY(otx_cluster_grow(run, how, region, area, minimum, &list));
     for (int32_t i = 0; i < list.count; ++i)
     {
-        exemplar[*count] = k;
-        all[(*count)++] = list.clusters[i];
+        out->exemplar[out->count] = exemplar;
+        out->cores[out->count++] = list.clusters[i];
     }
     return OSDTEX_OK;
 }
@@ -73,7 +91,7 @@ free_arenas(void *object)
         otx_arena_destroy(job->arenas[i]);
 }
 
-/* With a narrower collar where that folds the core. */
+/* With narrower collars where they fold the core. */
 static otx_status
 lay_out(void *context, int64_t index, otx_worker *worker)
 {
@@ -91,35 +109,103 @@ lay_out(void *context, int64_t index, otx_worker *worker)
     job->arenas[index] = otx_arena_create(job->run->allocator);
     if (!job->arenas[index])
         return OSDTEX_ERROR_MEMORY;
-    OTX_TRY(otx_chart_build(
-        &request, core->faces, core->face_count, &job->spaces[worker->index],
-        worker->scratch, job->arenas[index], chart));
-    if (chart->worst < (double)INFINITY)
-        return OSDTEX_OK;
-    request.collar *= 0.5;
-    OTX_TRY(otx_chart_build(
-        &request, core->faces, core->face_count, &job->spaces[worker->index],
-        worker->scratch, job->arenas[index], chart));
-    if (!(chart->worst < (double)INFINITY))
-        chart->face_count = chart->core_count = 0;
+    for (int i = 0; i < job->collars; ++i, request.collar *= 0.5)
+    {
+        OTX_TRY(otx_chart_build(
+            &request, core->faces, core->face_count,
+            &job->spaces[worker->index], worker->scratch, job->arenas[index],
+            chart));
+        if (chart->worst < (double)INFINITY)
+            return OSDTEX_OK;
+    }
+    chart->face_count = chart->core_count = 0;
     return OSDTEX_OK;
 }
 
 static otx_status
-lay_out_all(otx_run *run, layout_job *job)
+core_list_create(otx_run *run, int32_t capacity, core_list *out)
+{
+    out->cores = OTX_NEW(run->scratch, otx_cluster, capacity);
+    out->exemplar = OTX_NEW(run->scratch, int32_t, capacity);
+    out->count = 0;
+    return otx_run_ok(run);
+}
+
+static otx_status
+lay_out_all(
+    otx_run *run, const otx_territory_options *options,
+    const otx_surface *surface, const otx_growing *how, const core_list *list,
+    int32_t collars, layout_job **out)
 {
     const int32_t threads = otx_pool_threads(run->pool);
+    layout_job *job = OTX_NEW(run->scratch, layout_job, 1);
 
-    job->spaces = OTX_NEW(run->scratch, otx_chart_space, threads);
-    job->arenas = OTX_ZNEW(run->scratch, otx_arena *, job->count);
-    if (!job->spaces || !job->arenas ||
-        !otx_arena_defer(run->scratch, free_arenas, job))
+    OTX_TRY(otx_run_ok(run));
+    *job = (layout_job){
+        .run = run,
+        .surface = surface,
+        .leaves = how->dual,
+        .options = options,
+        .clusters = list->cores,
+        .spaces = OTX_NEW(run->scratch, otx_chart_space, threads),
+        .arenas = OTX_ZNEW(run->scratch, otx_arena *, list->count),
+        .charts = OTX_ZNEW(run->scratch, otx_chart, list->count),
+        .count = list->count,
+        .collars = collars};
+    OTX_TRY(otx_run_ok(run));
+    if (!otx_arena_defer(run->scratch, free_arenas, job))
         return otx_fail_memory(run, "heal");
     for (int32_t i = 0; i < threads; ++i)
         OTX_TRY(otx_chart_space_create(
-            run, run->scratch, job->surface, &job->spaces[i]));
+            run, run->scratch, surface, &job->spaces[i]));
+    *out = job;
     return otx_loop_result(
         run, "heal", otx_pool_for(run->pool, job->count, lay_out, job));
+}
+
+/* Appends the charts that were laid out without a fold. */
+static otx_status
+keep_charts(
+    otx_run *run, const layout_job *job, const core_list *list,
+    otx_territory *out)
+{
+    const int64_t most = (int64_t)out->count + job->count;
+    otx_chart *charts = OTX_NEW(run->scratch, otx_chart, most);
+    int32_t *exemplar = OTX_NEW(run->scratch, int32_t, most);
+
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t i = 0; i < out->count; ++i)
+    {
+        charts[i] = out->charts[i];
+        exemplar[i] = out->exemplar[i];
+    }
+    for (int32_t i = 0; i < job->count; ++i)
+        if (job->charts[i].face_count > 0)
+        {
+            exemplar[out->count] = list->exemplar[i];
+            charts[out->count++] = job->charts[i];
+        }
+    out->charts = charts;
+    out->exemplar = exemplar;
+    return OSDTEX_OK;
+}
+
+/* The others in halves: around a limb, what is one disc does not lie flat. */
+static otx_status
+halve_folded(
+    otx_run *run, const otx_growing *how, const layout_job *job,
+    core_list *list)
+{
+    core_list halves;
+
+    OTX_TRY(core_list_create(run, how->dual->level->face_count, &halves));
+    for (int32_t i = 0; i < job->count; ++i)
+        if (job->charts[i].face_count == 0 && list->cores[i].face_count > 1)
+            OTX_TRY(append_cores(
+                run, how, &list->cores[i], list->exemplar[i],
+                0.5 * list->cores[i].area, 2, &halves));
+    *list = halves;
+    return OSDTEX_OK;
 }
 
 static void
@@ -135,6 +221,25 @@ claim(otx_territory *out, int32_t face_count)
         }
 }
 
+static otx_status
+part(
+    otx_run *run, const otx_mapping *mapping,
+    const otx_territory_options *options, const otx_growing *how,
+    core_list *out)
+{
+    const double side = options->side / options->texels;
+
+    OTX_TRY(core_list_create(run, how->dual->level->face_count, out));
+    for (int32_t k = 0; k < otx_source_count(mapping); ++k)
+    {
+        otx_cluster region;
+
+        OTX_TRY(region_of(run, mapping, how->dual, k, &region));
+        OTX_TRY(append_cores(run, how, &region, k, side * side, 1, out));
+    }
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_territory_build(
     otx_run *run, const otx_mapping *mapping,
@@ -143,34 +248,26 @@ otx_territory_build(
     const otx_surface *surface = mapping->surface;
     const otx_level *leaf = otx_surface_leaf(surface);
     otx_dual *dual = OTX_NEW(run->scratch, otx_dual, 1);
-    otx_cluster *cores = OTX_NEW(run->scratch, otx_cluster, leaf->face_count);
-    int32_t *exemplar = OTX_NEW(run->scratch, int32_t, leaf->face_count);
-    layout_job *job = OTX_NEW(run->scratch, layout_job, 1);
     otx_cluster_space space;
-    int32_t count = 0;
+    const otx_growing how = {dual, BEND, &space};
+    core_list list;
 
-    out->owner = OTX_NEW(run->scratch, int32_t, leaf->face_count);
-    out->slot = OTX_NEW(run->scratch, int32_t, leaf->face_count);
+    *out = (otx_territory){
+        .owner = OTX_NEW(run->scratch, int32_t, leaf->face_count),
+        .slot = OTX_NEW(run->scratch, int32_t, leaf->face_count)};
     OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_dual_build(run, surface, surface->level_count - 1, dual));
     OTX_TRY(otx_cluster_space_create(run, leaf, &space));
-    for (int32_t k = 0; k < otx_source_count(mapping); ++k)
-        OTX_TRY(append_cores(
-            run, mapping, &(otx_growing){dual, BEND, &space}, k, options, cores,
-            exemplar, &count));
-    *job = (layout_job){
-        .run = run,
-        .surface = surface,
-        .leaves = dual,
-        .options = options,
-        .clusters = cores,
-        .charts = OTX_ZNEW(run->scratch, otx_chart, count),
-        .count = count};
-    OTX_TRY(otx_run_ok(run));
-    OTX_TRY(lay_out_all(run, job));
-    out->count = count;
-    out->charts = job->charts;
-    out->exemplar = exemplar;
+    OTX_TRY(part(run, mapping, options, &how, &list));
+    for (int i = 0; i <= HALVINGS && list.count > 0; ++i)
+    {
+        layout_job *job = NULL;
+
+        OTX_TRY(
+            lay_out_all(run, options, surface, &how, &list, COLLARS + i, &job));
+        OTX_TRY(keep_charts(run, job, &list, out));
+        OTX_TRY(halve_folded(run, &how, job, &list));
+    }
     claim(out, leaf->face_count);
     return OSDTEX_OK;
 }

@@ -12,7 +12,7 @@
 typedef struct otx_territory
 {
     int32_t count;
-    otx_chart *charts;       /* [count]; without faces where none was found */
+    otx_chart *charts;       /* [count] */
     const int32_t *exemplar; /* [count] that all of a chart's core shows */
     int32_t *owner;          /* [leaf face_count] whose core a face is in, -1 */
     int32_t *slot;           /* [leaf face_count] and the face's number there */
@@ -25,8 +25,9 @@ typedef struct otx_territory_options
     double collar; /* texels */
 } otx_territory_options;
 
-/* In run->scratch, for as long as that is not released. A core that would be
- * laid out with a fold has no chart and is nobody's. CANCELLED, MEMORY. */
+/* In run->scratch, for as long as that is not released. A core that folds
+ * when it is laid out is parted in two; a face that still does is nobody's.
+ * CANCELLED, MEMORY. */
 otx_status otx_territory_build(
     otx_run *run, const otx_mapping *mapping,
     const otx_territory_options *options, otx_territory *out);
