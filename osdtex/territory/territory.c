@@ -1,5 +1,5 @@
 /* territory.c -- who makes which face. */
-#include "heal/territory.h"
+#include "territory/territory.h"
 
 #include "mapping/seam.h"
 
@@ -57,7 +57,7 @@ region_of(
     int32_t *faces = OTX_NEW(run->scratch, int32_t, dual->level->face_count);
 
     if (!faces)
-        return otx_fail_memory(run, "heal");
+        return otx_fail_memory(run, "charts");
     *out = (otx_cluster){.level = dual->level_index, .faces = faces};
     out->face_count = faces_of(mapping, k, faces);
     for (int32_t i = 0; i < out->face_count; ++i)
@@ -154,13 +154,13 @@ lay_out_all(
         .collars = collars};
     OTX_TRY(otx_run_ok(run));
     if (!otx_arena_defer(run->scratch, free_arenas, job))
-        return otx_fail_memory(run, "heal");
+        return otx_fail_memory(run, "charts");
     for (int32_t i = 0; i < threads; ++i)
         OTX_TRY(otx_chart_space_create(
             run, run->scratch, surface, &job->spaces[i]));
     *out = job;
     return otx_loop_result(
-        run, "heal", otx_pool_for(run->pool, job->count, lay_out, job));
+        run, "charts", otx_pool_for(run->pool, job->count, lay_out, job));
 }
 
 /* Appends the charts that were laid out without a fold. */

@@ -3,11 +3,11 @@
  * Texels are as large as the exemplar's. A texel is of the first face of the
  * chart that has its middle, and core faces come first, so a chart that
  * overlaps itself keeps its own part. */
-#ifndef OTX_HEAL_PLOT_H
-#define OTX_HEAL_PLOT_H
+#ifndef OTX_TERRITORY_PLOT_H
+#define OTX_TERRITORY_PLOT_H
 
-#include "heal/territory.h"
 #include "surface/facet.h"
+#include "territory/territory.h"
 
 typedef struct otx_plot
 {

@@ -1,5 +1,5 @@
 /* plot.c -- a chart's texels, and what of the surface each shows. */
-#include "heal/plot.h"
+#include "territory/plot.h"
 
 #include "image/image.h"
 

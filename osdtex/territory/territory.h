@@ -3,8 +3,8 @@
  * The surface is parted into discs of a few hundred texels; each is laid out in
  * the plane together with a collar of its neighbours' faces, which it reads and
  * never writes. */
-#ifndef OTX_HEAL_TERRITORY_H
-#define OTX_HEAL_TERRITORY_H
+#ifndef OTX_TERRITORY_TERRITORY_H
+#define OTX_TERRITORY_TERRITORY_H
 
 #include "flatten/chart.h"
 #include "mapping/source.h"

@@ -3,7 +3,7 @@
 #include "grid.h"
 #include "unit/surface/meshes.h"
 
-#include "heal/territory.h"
+#include "territory/territory.h"
 
 enum
 {
