@@ -109,6 +109,10 @@ test_run_teardown(void **state)
     return 0;
 }
 
+/* A test that is handed a run of its own. */
+#define test_with_run(name)                                                    \
+    cmocka_unit_test_setup_teardown(name, test_run_setup, test_run_teardown)
+
 /* The last finding's sentence, "" when there is none. */
 static inline const char *
 test_last_message(const otx_run *run)
