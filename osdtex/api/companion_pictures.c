@@ -18,6 +18,9 @@ typedef struct pictures
     char hashes[OTX_COMPANION_COUNT][OTX_HASH_TEXT_BYTES];
 } pictures;
 
+/* Their products are finite in 32 bits. */
+static const double HEIGHT_MAX = 1e15;
+
 static otx_status
 check(otx_run *run, const osdtex_exemplar_options *options)
 {
@@ -27,12 +30,17 @@ check(otx_run *run, const osdtex_exemplar_options *options)
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "a material has up to %d maps besides its colour, one of a kind",
             OSDTEX_MAP_KINDS);
-    if (!(options->height_range >= 0.0) || isinf(options->height_range) ||
-        !isfinite(options->height_middle))
+    if (!(options->height_range >= 0.0 && options->height_range <= HEIGHT_MAX))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
-            "heights reach over a positive number of scene units, not %g",
-            options->height_range);
+            "heights reach over a positive number of scene units up to %g, not "
+            "%g",
+            HEIGHT_MAX, options->height_range);
+    if (!(fabs(options->height_middle) <= HEIGHT_MAX))
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+            "the surface stays where heights are a value up to %g, not %g",
+            HEIGHT_MAX, options->height_middle);
     for (int32_t i = 0; i < options->map_count; ++i)
     {
         const osdtex_companion *map = &options->maps[i];

@@ -103,6 +103,25 @@ check_level(look *l)
                : refuse_memory(l, (double)limit);
 }
 
+/* Heights that would reach beyond the cage are told. */
+static void
+tell_heights(const look *l)
+{
+    const otx_cage *cage = &l->cage->cage;
+    const otx_companions *set = &l->exemplar->exemplar.companions;
+    const double range = set->height_range;
+    const double far = fmax(
+        fabs(range * set->height_middle),
+        fabs(range * (1.0 - set->height_middle)));
+
+    if (range > 0.0 && far > cage->diagonal)
+        otx_note(
+            l->run, OSDTEX_SEVERITY_WARNING, STAGE, otx_where_file(cage->path),
+            "wrong units? The heights reach %g scene units from the surface, "
+            "and the cage is %g across",
+            far, cage->diagonal);
+}
+
 static otx_status
 check_mapping(look *l)
 {
@@ -115,6 +134,7 @@ check_mapping(look *l)
     if (e->tile_size == 0)
         l->forecast.scale *= (double)e->source_width / e->width;
     l->forecast.density = e->width / l->request.scale;
+    tell_heights(l);
     OTX_TRY(check_level(l));
     OTX_TRY(otx_surface_draft(l->run, cage, l->forecast.level, &l->draft));
     OTX_TRY(otx_rehearse_map(

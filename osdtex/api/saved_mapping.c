@@ -15,6 +15,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const char STAGE[] = "mapping";
@@ -282,6 +283,29 @@ compare_points(const loader *l)
             "texture goes with them");
 }
 
+/* A pipe that a file names is waited for in vain. */
+static bool
+is_no_file(const char *path)
+{
+    struct stat info;
+
+    return stat(path, &info) == 0 && !S_ISREG(info.st_mode);
+}
+
+/* Asked before a level is refined that the arrays are not of. */
+static otx_status
+check_level(const loader *l)
+{
+    const otx_cage *cage = &l->cage->cage;
+    const otx_tensor *faces =
+        otx_tensors_find(l->tensors, "face_patch", OTX_TENSOR_I32, -1, 0);
+
+    return faces && (double)faces->rows ==
+                        otx_surface_face_count(cage, l->about.level)
+               ? OSDTEX_OK
+               : damaged(l, "its arrays do not fit the cage at its level");
+}
+
 static otx_status
 read_cage(loader *l)
 {
@@ -290,7 +314,11 @@ read_cage(loader *l)
     const char *path = l->options.cage, *topology;
 
     if (!path)
+    {
         OTX_TRY(find_file(&l->call->run, l->path, l->about.cage_path, &path));
+        if (is_no_file(path))
+            return damaged(l, "its cage is a folder, a pipe or a device");
+    }
     OTX_TRY(osdtex_cage_read(context, path, &l->about.cage, &l->cage));
     OTX_TRY(otx_saved_topology(&l->call->run, &l->cage->cage, &topology));
     if (strcmp(topology, l->about.topology) != 0)
@@ -299,6 +327,7 @@ read_cage(loader *l)
             "the cage has other faces than the one that was mapped; map it "
             "anew, or give the one that the mapping was made for");
     compare_points(l);
+    OTX_TRY(check_level(l));
     level.level = l->about.level;
     return osdtex_surface_refine(context, l->cage, &level, &l->surface);
 }

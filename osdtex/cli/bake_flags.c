@@ -123,11 +123,11 @@ parse_units(const otx_flag_values *values, osdtex_bake_options *out)
         out->meters_per_unit = meters[index];
     else if (
         !otx_value_real(text, &out->meters_per_unit) ||
-        !(out->meters_per_unit > 0.0))
+        !(out->meters_per_unit >= 1e-12 && out->meters_per_unit <= 1e12))
     {
         otx_session_refuse(
             "--units takes m, cm, mm, km, in, ft, or how many metres a scene "
-            "unit is, not '%s'",
+            "unit is, from 1e-12 to 1e12, not '%s'",
             text);
         return false;
     }

@@ -350,6 +350,18 @@ name_of(const void *list, int index)
     return otx_command_at(index) ? otx_command_at(index)->name : NULL;
 }
 
+bool
+otx_command_takes(const otx_command *command, const otx_flag_values *values)
+{
+    const int least =
+        values->saved
+            ? 0
+            : command->operands_min - (values->text[OTX_FLAG_MATERIAL] ? 1 : 0);
+
+    return values->operand_count >= least &&
+           values->operand_count <= command->operands_max;
+}
+
 int
 otx_command_refuse(const char *name)
 {

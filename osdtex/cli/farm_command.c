@@ -2,6 +2,7 @@
  * of it. */
 #include "cli/session.h"
 #include "cli/task.h"
+#include "cli/task_files.h"
 #include "cli/value.h"
 #include "farm/engine.h"
 #include "regress/process.h"
@@ -152,7 +153,7 @@ plan(
         otx_session_refuse("%s", error);
         return OTX_EXIT_DATA;
     }
-    if (!otx_task_are_apart(job))
+    if (!otx_task_files_are_apart(job))
         return OTX_EXIT_DATA;
     if (!make_folder(output))
     {

@@ -150,6 +150,7 @@ typedef struct otx_flag_saved
     char *files[OTX_FLAG_SAVED_MAX];
     int count;
     int exemplars;
+    uint32_t maps[OSDTEX_EXEMPLARS_MAX]; /* bit k: it has a map of kind k */
     bool out_of_memory;
 } otx_flag_saved;
 

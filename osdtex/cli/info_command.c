@@ -15,40 +15,41 @@ print_cage(const char *name, const osdtex_cage_info *c)
 {
     const int others = c->face_count - c->triangle_count - c->quad_count;
 
-    printf("%s: cage, hash %s\n", name, c->hash ? c->hash : "none");
-    printf(
+    otx_session_print("%s: cage, hash %s\n", name, c->hash ? c->hash : "none");
+    otx_session_print(
         "  faces       %d (%d quads, %d triangles, %d others), %d vertices, "
         "%d edges\n",
         c->face_count, c->quad_count, c->triangle_count, others, c->vert_count,
         c->edge_count);
-    printf(
+    otx_session_print(
         "  components  %d, %d boundary edges%s\n", c->component_count,
         c->boundary_edge_count, c->boundary_edge_count == 0 ? ": closed" : "");
-    printf(
+    otx_session_print(
         "  box         %.9g %.9g %.9g to %.9g %.9g %.9g, diagonal %g\n",
         c->lower[0], c->lower[1], c->lower[2], c->upper[0], c->upper[1],
         c->upper[2], c->diagonal);
-    printf(
+    otx_session_print(
         "  edges       %g long in the mean; default scale %g\n",
         c->mean_edge_length, c->default_scale);
-    printf(
+    otx_session_print(
         "  tags        %d creases, %d corners, %d holes\n", c->crease_count,
         c->corner_count, c->hole_count);
     if (c->scheme == OSDTEX_SCHEME_NONE)
-        printf("  rules       none: a plain mesh, textured as it is\n");
+        otx_session_print(
+            "  rules       none: a plain mesh, textured as it is\n");
     else
-        printf(
+        otx_session_print(
             "  rules       %s, boundary %s, face-varying %s\n",
             otx_inputs_scheme_name(c->scheme),
             otx_inputs_boundary_name(c->boundary),
             otx_inputs_fvar_name(c->fvar));
-    printf(
+    otx_session_print(
         "  carries     %d UVs, %d groups, %d materials\n", c->uv_count,
         c->group_count, c->material_count);
     if (c->triangle_count == c->face_count &&
         (c->scheme == OSDTEX_SCHEME_CATMARK ||
          c->scheme == OSDTEX_SCHEME_BILINEAR))
-        printf(
+        otx_session_print(
             "  hint        all faces are triangles: --scheme loop, or none for "
             "a scan?\n");
 }
@@ -61,15 +62,16 @@ print_exemplar(const char *name, const osdtex_exemplar_info *e)
     static const char *const tiles[2][2] = {
         {"in no direction", "bottom to top"}, {"left to right", "both ways"}};
 
-    printf("%s: picture, hash %s\n", name, e->hash ? e->hash : "none");
-    printf(
+    otx_session_print(
+        "%s: picture, hash %s\n", name, e->hash ? e->hash : "none");
+    otx_session_print(
         "  size        %d x %d, %d channels, %s\n", e->width, e->height,
         e->channels, e->type);
-    printf(
+    otx_session_print(
         "  colours     from %s%s%s to '%s', compared in '%s' (%s)\n", quote,
         e->source_space, quote, e->linear_space,
         e->match_space ? e->match_space : "the sRGB curve", e->embedding);
-    printf(
+    otx_session_print(
         "  tiles       %s%s\n", tiles[e->wrap_x != 0][e->wrap_y != 0],
         e->made_tileable ? ", once made to" : "");
 }
@@ -79,15 +81,15 @@ print_structure(const osdtex_exemplar_structure *s)
 {
     const double *g = s->generators;
 
-    printf(
+    otx_session_print(
         "  structure   %s: coherence %.2f, regularity %.2f\n", s->name,
         s->coherence, s->regularity);
     if (s->symmetry > 0)
-        printf(
+        otx_session_print(
             "  direction   %.0f degrees, the same after a turn of %d\n",
             s->angle * 180.0 / 3.14159265358979323846, 360 / s->symmetry);
     if (strcmp(s->name, "lattice") == 0)
-        printf(
+        otx_session_print(
             "  repeats     by (%.1f, %.1f) and (%.1f, %.1f) texels\n", g[0],
             g[1], g[2], g[3]);
 }
@@ -144,9 +146,10 @@ print_item(
                          strncmp(l->display, name, sizeof l->display - 1) == 0;
 
     if (kind == OSDTEX_COLOUR_ALIAS)
-        printf("%s%s", l->kind == OSDTEX_COLOUR_ALIAS ? ", " : "; also ", name);
+        otx_session_print(
+            "%s%s", l->kind == OSDTEX_COLOUR_ALIAS ? ", " : "; also ", name);
     else if (goes_on)
-        printf(", %s", value);
+        otx_session_print(", %s", value);
     else
     {
         const bool titled =
@@ -156,10 +159,11 @@ print_item(
         if (l->kind >= 0)
             putchar('\n');
         if (titled)
-            printf("  %s\n", titles[kind]);
-        printf("    %s", name);
+            otx_session_print("  %s\n", titles[kind]);
+        otx_session_print("    %s", name);
         if (value[0])
-            printf(kind == OSDTEX_COLOUR_SPACE ? " (%s)" : ": %s", value);
+            otx_session_print(
+                kind == OSDTEX_COLOUR_SPACE ? " (%s)" : ": %s", value);
         snprintf(l->display, sizeof l->display, "%s", name);
     }
     l->kind = kind;
@@ -206,7 +210,7 @@ print_saved_exemplar(const json_t *e)
 {
     const json_t *size = json_object_get(e, "size");
 
-    printf(
+    otx_session_print(
         "  exemplar    %s, hash %s: %d x %d%s\n",
         json_string_value(json_object_get(e, "path")),
         json_is_string(json_object_get(e, "hash"))
@@ -228,18 +232,18 @@ print_saved(void *path, const char *about)
 
     if (!root)
         return;
-    printf(
+    otx_session_print(
         "%s: saved mapping, format %d, of osdtex %s\n", (const char *)path,
         (int)json_integer_value(json_object_get(root, "format")),
         json_string_value(json_object_get(root, "program")));
-    printf(
+    otx_session_print(
         "  cage        %s at level %d, faces %s\n",
         json_string_value(json_object_get(cage, "path")),
         (int)json_integer_value(json_object_get(cage, "level")),
         json_string_value(json_object_get(cage, "topology")));
     json_array_foreach(json_object_get(root, "exemplars"), k, exemplar)
         print_saved_exemplar(exemplar);
-    printf(
+    otx_session_print(
         "  mapping     %d patches by %s, %g scene units wide, seed %s\n",
         (int)json_integer_value(json_object_get(root, "patch_count")),
         json_string_value(json_object_get(root, "method")),

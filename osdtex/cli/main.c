@@ -30,12 +30,7 @@ run(const otx_command *command, int argc, char **argv)
         print_version();
         return OTX_EXIT_OK;
     }
-    const int least =
-        command->operands_min - (values.text[OTX_FLAG_MATERIAL] ? 1 : 0);
-
-    /* A saved mapping names them, a material its colour. */
-    if (values.operand_count < (values.saved ? 0 : least) ||
-        values.operand_count > command->operands_max)
+    if (!otx_command_takes(command, &values))
         return otx_session_refuse(
             "osdtex %s takes %s; see osdtex %s --help", command->name,
             command->operands, command->name);

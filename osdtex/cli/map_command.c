@@ -160,7 +160,7 @@ say_bake(const job *j)
 {
     const otx_map_request *r = &j->request;
 
-    printf(
+    otx_session_print(
         "baked into    %s, %s and their textures of %d texels\n"
         "onto          %s, about %.4g texels per scene unit\n",
         r->cage_obj, r->cage_mtl, r->bake_options.resolution,
@@ -175,21 +175,21 @@ say_outputs(const job *j)
     const otx_map_request *r = &j->request;
 
     if (r->maps)
-        printf(
+        otx_session_print(
             "into          %s, %s, %s%s\n", r->obj, r->mtl, r->exrs[0],
             r->exr_count > 1 ? " and so on" : "");
     if (r->bakes && !r->values->saved)
         say_bake(j);
     if (r->bakes && r->values->saved)
-        printf(
+        otx_session_print(
             "baked into    %s, %s and their textures of %d texels\n",
             r->cage_obj, r->cage_mtl, r->bake_options.resolution);
     if (r->preview)
-        printf("preview       %s\n", r->preview);
+        otx_session_print("preview       %s\n", r->preview);
     if (r->report)
-        printf("report        %s\n", r->report);
+        otx_session_print("report        %s\n", r->report);
     if (r->save)
-        printf("saved as      %s\n", r->save);
+        otx_session_print("saved as      %s\n", r->save);
 }
 
 static void
@@ -201,7 +201,7 @@ say_plan(const job *j)
     const double kept =
         e->tile_size == 0 ? (double)e->width / e->source_width : 1.0;
 
-    printf(
+    otx_session_print(
         "would texture %s: %.0f faces at level %d, about %.3g GiB of memory\n"
         "with          %s: %d x %d, %g scene units wide\n"
         "by            %s\n",
@@ -209,7 +209,7 @@ say_plan(const job *j)
         r->values->operands[1], e->width, e->height, kept * f->scale,
         f->method);
     for (int k = 0; k < r->also.count; ++k)
-        printf(
+        otx_session_print(
             "and           %s%s%s%s\n", r->also.files[k],
             r->also.materials[k][0] ? " on the material " : "",
             r->also.materials[k],
@@ -222,7 +222,7 @@ say_saved_plan(const job *j)
 {
     const osdtex_mapping_info *m = osdtex_mapping_describe(j->mapping);
 
-    printf(
+    otx_session_print(
         "would take    %s: %d faces in %d patches, by %s\n",
         j->request.values->saved, m->face_count, m->patch_count, m->method);
     say_outputs(j);

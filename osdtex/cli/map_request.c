@@ -12,7 +12,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #define DEGREES (3.14159265358979323846 / 180.0)
 
@@ -59,7 +58,8 @@ otx_map_request_name(otx_map_request *r)
     return true;
 }
 
-/* Bit i: exemplar k has a map of kind i. */
+/* Bit i: exemplar k has a map of kind i: those that flags give, else, of the
+ * same picture, those of the saved mapping. */
 static uint32_t
 kinds_of(const otx_map_request *r, int k)
 {
@@ -67,7 +67,11 @@ kinds_of(const otx_map_request *r, int k)
     uint32_t kinds = 0;
 
     if (k == 0)
-        return otx_material_flags_kinds(&r->material);
+        kinds = otx_material_flags_kinds(&r->material);
+    if (r->values->saved && kinds == 0 && !(k == 0 && r->values->operands[1]))
+        kinds = r->values->of_saved.maps[k];
+    if (k == 0 || r->values->saved)
+        return kinds;
     set = k <= r->also.count ? otx_also_flags_set(&r->also, k - 1) : NULL;
     for (int i = 0; set && i < set->map_count; ++i)
         kinds |= 1u << set->maps[i].kind;
@@ -356,6 +360,17 @@ otx_map_request_parse(
            pictures_are_apart(r);
 }
 
+/* Of any exemplar: those that a bake has. */
+static uint32_t
+all_kinds(const otx_map_request *r)
+{
+    uint32_t kinds = 0;
+
+    for (int k = 0; k < r->exr_count; ++k)
+        kinds |= kinds_of(r, k);
+    return kinds;
+}
+
 void
 otx_map_request_outputs(const otx_map_request *r, otx_path_list *out)
 {
@@ -368,27 +383,16 @@ otx_map_request_outputs(const otx_map_request *r, otx_path_list *out)
     }
     for (int k = 0; r->maps && k < r->exr_count; ++k)
         otx_path_list_add(out, r->exrs[k]);
-    for (int i = 0; r->maps && i < (r->also.count + 1) * OSDTEX_MAP_KINDS; ++i)
+    for (int i = 0; r->maps && i < r->exr_count * OSDTEX_MAP_KINDS; ++i)
         if (name_map(r, i / OSDTEX_MAP_KINDS, i % OSDTEX_MAP_KINDS, path))
             otx_path_list_add(out, path);
     if (r->bakes)
         otx_bake_outputs_list(
-            r->cage_obj, &r->bake_options,
-            otx_material_flags_kinds(&r->material), texture_extension(r), out);
+            r->cage_obj, &r->bake_options, all_kinds(r), texture_extension(r),
+            out);
     otx_path_list_add(out, r->preview);
     otx_path_list_add(out, r->report);
     otx_path_list_add(out, r->save);
-}
-
-/* Of any exemplar: those that a bake has. */
-static uint32_t
-all_kinds(const otx_map_request *r)
-{
-    uint32_t kinds = 0;
-
-    for (int k = 0; k <= r->also.count; ++k)
-        kinds |= kinds_of(r, k);
-    return kinds;
 }
 
 /* Those of materials that are written beside the OBJ. */
@@ -397,7 +401,7 @@ maps_are_done(const otx_map_request *r, const char hash[OSDTEX_HASH_BYTES])
 {
     char path[OTX_MAP_PATH_BYTES];
 
-    for (int i = 0; r->maps && i < (r->also.count + 1) * OSDTEX_MAP_KINDS; ++i)
+    for (int i = 0; r->maps && i < r->exr_count * OSDTEX_MAP_KINDS; ++i)
         if (name_map(r, i / OSDTEX_MAP_KINDS, i % OSDTEX_MAP_KINDS, path) &&
             !otx_up_to_date_check(path, hash))
             return false;
@@ -409,12 +413,10 @@ otx_map_request_is_done(
     const otx_map_request *r, const char hash[OSDTEX_HASH_BYTES])
 {
     const char *const files[] = {
-        r->maps ? r->obj : NULL, r->maps ? r->mtl : NULL, r->preview,
-        r->report};
+        r->maps ? r->obj : NULL, r->maps ? r->mtl : NULL, r->preview, r->report,
+        r->save};
 
-    if (r->save && access(r->save, F_OK) != 0)
-        return false;
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 5; ++i)
         if (files[i] && !otx_up_to_date_check(files[i], hash))
             return false;
     for (int k = 0; r->maps && k < r->exr_count; ++k)

@@ -152,7 +152,7 @@ render(otx_session *session, job *j)
         return status;
     if (!j->dry_run)
         return draw(session, j);
-    printf(
+    otx_session_print(
         "would render %s into %s: %d x %d, %d x %d rays a pixel\n", j->path,
         j->output, j->picture.width, j->picture.height, j->picture.samples,
         j->picture.samples);

@@ -3,6 +3,7 @@
 
 #include "cli/spool.h"
 
+#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,6 +20,41 @@ add(void *user, osdtex_saved_file file, const char *path)
     ++s->count;
 }
 
+/* Bit k: a map of kind k is in the list. */
+static uint32_t
+kinds_of(const json_t *list)
+{
+    uint32_t kinds = 0;
+    json_t *map;
+    size_t i;
+
+    json_array_foreach(list, i, map)
+    {
+        const char *name = json_string_value(json_object_get(map, "kind"));
+
+        for (int k = 0; name && k < OSDTEX_MAP_KINDS; ++k)
+            if (strcmp(name, osdtex_map_kind_name(k)) == 0)
+                kinds |= 1u << k;
+    }
+    return kinds;
+}
+
+/* What the library has checked. */
+static void
+add_kinds(void *user, const char *about)
+{
+    otx_flag_saved *s = user;
+    json_t *root = json_loads(about, 0, NULL), *exemplar;
+    size_t k;
+
+    s->out_of_memory |= !root;
+    json_array_foreach(
+        json_object_get(root, "exemplars"), k,
+        exemplar) if (k < OSDTEX_EXEMPLARS_MAX) s->maps[k] =
+        kinds_of(json_object_get(exemplar, "maps"));
+    json_decref(root);
+}
+
 osdtex_status
 otx_saved_files_take(otx_session *session, otx_flag_values *values)
 {
@@ -28,6 +64,9 @@ otx_saved_files_take(otx_session *session, otx_flag_values *values)
         return OSDTEX_OK;
     status = osdtex_mapping_files(
         session->context, values->saved, add, &values->of_saved);
+    if (status == OSDTEX_OK)
+        status = osdtex_mapping_inspect(
+            session->context, values->saved, add_kinds, &values->of_saved);
     return status == OSDTEX_OK && values->of_saved.out_of_memory
                ? OSDTEX_ERROR_MEMORY
                : status;

@@ -39,15 +39,19 @@ wipe_bar(otx_session *session)
     session->bar_is_shown = false;
 }
 
-/* `length` characters. Names in a file may hold what a terminal takes for
- * commands. */
+/* Names in a file may hold what a terminal takes for commands. */
+static char
+plain(char c)
+{
+    return (unsigned char)c >= ' ' && c != 127 ? c : '?';
+}
+
+/* `length` characters. */
 static void
 put_plain(const char *text, size_t length)
 {
     for (size_t i = 0; i < length; ++i)
-        fputc(
-            (unsigned char)text[i] >= ' ' && text[i] != 127 ? text[i] : '?',
-            stderr);
+        fputc(plain(text[i]), stderr);
 }
 
 /* A sentence of the library, with its options as flags. */
@@ -100,6 +104,26 @@ otx_session_refuse(const char *format, ...)
     put_line("osdtex: error: ", format, arguments);
     va_end(arguments);
     return OTX_EXIT_USAGE;
+}
+
+void
+otx_session_print(const char *format, ...)
+{
+    static const char LINE_END = '\x01'; /* of the format, while it is filled */
+    char *lines = strdup(format), *text = NULL;
+    va_list arguments;
+
+    for (char *c = lines; c && *c; ++c)
+        if (*c == '\n')
+            *c = LINE_END;
+    va_start(arguments, format);
+    if (lines && vasprintf(&text, lines, arguments) < 0)
+        text = NULL;
+    va_end(arguments);
+    for (const char *c = text; c && *c; ++c)
+        putchar(*c == LINE_END ? '\n' : plain(*c));
+    free(text);
+    free(lines);
 }
 
 void

@@ -41,6 +41,11 @@ int otx_session_end(otx_session *session, osdtex_status status);
 void otx_session_say(otx_session *session, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/* To stdout; of what is printed only the format ends lines and nothing is a
+ * command for terminals, whatever names hold. */
+void otx_session_print(const char *format, ...)
+    __attribute__((format(printf, 1, 2)));
+
 /* A line on stderr that opens with "osdtex: error: "; returns the exit code of
  * a usage error. */
 int otx_session_refuse(const char *format, ...)

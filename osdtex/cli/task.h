@@ -18,9 +18,4 @@ typedef struct otx_task
 bool otx_task_parse(const otx_job *job, int index, otx_task *out);
 void otx_task_free(otx_task *task);
 
-/* Whether no two tasks of a job write one file; those that bake single tiles of
- * one asset share its texts. False after naming both and the file, or saying
- * which task is wrong. */
-bool otx_task_are_apart(const otx_job *job);
-
 #endif

@@ -256,7 +256,7 @@ make(otx_session *session, job *j)
         status = read_mesh(session, j, exemplar, &cage, &surface);
     otx_session_lap(session, "inputs read");
     if (status == OSDTEX_OK && j->values->text[OTX_FLAG_DRY_RUN])
-        printf(
+        otx_session_print(
             "would make tiles of %s into %s\n", j->values->operands[0],
             j->output);
     else if (status == OSDTEX_OK)

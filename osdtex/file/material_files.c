@@ -1,6 +1,8 @@
 /* material_files.c -- the files of a material, told by their names. */
 #include "file/material_files.h"
 
+#include "file/mark.h"
+
 #include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
@@ -270,14 +272,46 @@ take(search *s, const char *name)
     return OSDTEX_OK;
 }
 
+/* Whether osdtex wrote it, from another file. */
+static bool
+is_made(const search *s, const char *name)
+{
+    const size_t bytes = strlen(s->folder) + strlen(name) + 1;
+    char *path = malloc(bytes);
+    otx_mark_found found;
+    bool made;
+
+    if (!path)
+        return false;
+    snprintf(path, bytes, "%s%s", s->folder, name);
+    made = otx_mark_read(path, false, &found);
+    free(path);
+    return made;
+}
+
 static otx_status
-look_through(search *s, struct dirent **entries, int count)
+look_through(search *s, struct dirent **entries, int count, bool with_made)
 {
     for (int i = 0; i < count; ++i)
         if (has_prefix(entries[i]->d_name, s->prefix) &&
-            is_picture(entries[i]->d_name))
+            is_picture(entries[i]->d_name) &&
+            (with_made || !is_made(s, entries[i]->d_name)))
             OTX_TRY(take(s, entries[i]->d_name));
     return OSDTEX_OK;
+}
+
+/* What osdtex wrote into the folder of a material is not of the material,
+ * unless there is no other. */
+static otx_status
+look_twice(search *s, struct dirent **entries, int count)
+{
+    OTX_TRY(look_through(s, entries, count, false));
+    if (s->out->paths[OTX_MATERIAL_COLOR])
+        return OSDTEX_OK;
+    *s->out = (otx_material_files){{NULL}};
+    memset(s->ranks, 0, sizeof s->ranks);
+    s->pictures = 0;
+    return look_through(s, entries, count, true);
 }
 
 static otx_status
@@ -292,7 +326,7 @@ search_folder(search *s)
         return otx_fail(
             s->run, OSDTEX_ERROR_IO, STAGE, otx_where_file(s->folder),
             "the folder of the material cannot be read: %s", strerror(errno));
-    status = look_through(s, entries, count);
+    status = look_twice(s, entries, count);
     for (int i = 0; i < count; ++i)
         free(entries[i]);
     free(entries);

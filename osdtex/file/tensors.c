@@ -1,6 +1,8 @@
 /* tensors.c -- arrays in a file, by name. */
 #include "file/tensors.h"
 
+#include "file/mark.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <jansson.h>
@@ -79,6 +81,17 @@ describe(const otx_tensor *t, int64_t offset)
         "data_offsets", (json_int_t)offset, (json_int_t)(offset + bytes_of(t)));
 }
 
+/* Sorted, it opens the header, where the mark is looked for. */
+static json_t *
+metadata_of(const otx_run *run, const otx_tensors *tensors)
+{
+    char mark[OTX_MARK_BYTES];
+
+    otx_mark_print(run->mark, mark);
+    return json_pack(
+        "{s:s*, s:s*}", "mark", *mark ? mark : NULL, "osdtex", tensors->about);
+}
+
 /* The header's text, padded with blanks so that the data are aligned; NULL when
  * memory is out. */
 static char *
@@ -90,8 +103,7 @@ header_of(otx_run *run, const otx_tensors *tensors)
     size_t length;
 
     if (tensors->about)
-        json_object_set_new(
-            root, "__metadata__", json_pack("{s:s}", "osdtex", tensors->about));
+        json_object_set_new(root, "__metadata__", metadata_of(run, tensors));
     for (int32_t i = 0; i < tensors->count; ++i)
     {
         json_object_set_new(

@@ -117,6 +117,34 @@ class Material(ProgramTest):
         self.assert_exit(result, 1)
         self.assertIn("is an input and would be replaced", result.stderr)
 
+    def test_its_own_folder(self):
+        """What was written beside the maps is none of them."""
+        for more in (), ("-u",):
+            result = self.run_program(
+                "map", CAGE, "--material", self.set, "-o",
+                self.set / "Peb.obj", *QUICK, *more)
+            self.assert_exit(result, 0)
+        self.assertIn("is up to date", result.stderr)
+        self.assertTrue((self.set / "Peb_normal.exr").exists())
+        # Where there is nothing else, it is.
+        alone = self.folder / "alone"
+        alone.mkdir()
+        (self.set / "Peb.exr").rename(alone / "Peb_color.exr")
+        (self.set / "Peb_normal.exr").rename(alone / "Peb_normal.exr")
+        result = self.bake("--material", alone)
+        self.assert_exit(result, 0)
+        self.assertTrue((self.folder / "a_normal.1001.exr").exists())
+
+    def test_heights_stay_finite(self):
+        """They are refused before work, or told."""
+        for flag in "range", "middle":
+            self.refuse(1, "up to 1e+15, not 1e+300", "--material", self.set,
+                        f"--height-{flag}", "1e300")
+        result = self.bake("--material", self.set, "--height-range", "1e9",
+                           "-n")
+        self.assert_exit(result, 0)
+        self.assertIn("wrong units? The heights reach", result.stderr)
+
     def refuse(self, code, words, *more):
         result = self.bake(*more)
         self.assert_exit(result, code)
@@ -173,6 +201,13 @@ class Material(ProgramTest):
                      "t_roughness.1001", "t_height.1001"):
             self.assertTrue((self.folder / f"{name}.exr").exists(), name)
         self.assertFalse((self.folder / "t_2_normal.exr").exists())
+        # The maps that only the other one has are outputs, too.
+        (self.folder / "u_roughness.1001.exr").write_bytes(b"precious")
+        (self.set / "Peb_1K_arm.png").unlink()
+        result = self.run_program(
+            "bake", cage, "--material", self.set, "--also", f"B={other}",
+            "--level", "1", "-o", self.folder / "u.obj", *BAKE)
+        self.assert_error(result, 1, "was not made by osdtex")
 
     def twice(self):
         write_png(self.set / "Peb_1K_disp.exr", (1,))

@@ -6,6 +6,7 @@ another pose, and from damaged files.
 """
 
 import json
+import os
 import re
 import shutil
 import struct
@@ -32,10 +33,10 @@ class Saved(ProgramTest):
             "1", *BAKE, "--save", self.saved, *more)
         self.assert_exit(result, 0)
 
-    def bake_from(self, *more, name="two.obj", saved=None):
+    def bake_from(self, *more, name="two.obj", saved=None, **keywords):
         return self.run_program(
             "bake", "--from", saved or self.saved, *more, "-o",
-            self.folder / name, *BAKE)
+            self.folder / name, *BAKE, **keywords)
 
     def test_bakes_again_as_it_was(self):
         self.save()
@@ -49,8 +50,7 @@ class Saved(ProgramTest):
             (self.folder / "two.1001.exr").read_bytes(),
             (self.folder / "three.1001.exr").read_bytes())
         self.assertEqual(
-            self.saved.read_bytes(),
-            (self.folder / "again.osdtex").read_bytes())
+            self.picture("m.osdtex"), self.picture("again.osdtex"))
 
     def test_tiles_one_by_one_are_the_tiles_of_one_job(self):
         self.save()
@@ -104,6 +104,61 @@ class Saved(ProgramTest):
         result = self.bake_from(name="x.obj")
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("is an input and would be replaced", result.stderr)
+
+    def test_it_is_an_output_like_others(self):
+        """Whole and of this job, or it is made again."""
+        def save(*more):
+            result = self.run_program(
+                "map", CAGE, EXEMPLAR, "-o", self.folder / "a.obj", "--level",
+                "1", "--save", self.saved, *more)
+            self.assert_exit(result, 0)
+            return "up to date" not in result.stderr
+        self.assertTrue(save("-u"))
+        self.assertFalse(save("-u"))
+        whole = self.saved.read_bytes()
+        for damaged in whole[:-1] + b"\7", whole[:-9], b"":
+            self.saved.write_bytes(damaged)
+            self.assertTrue(save("-u"))
+            self.assertEqual(self.saved.read_bytes(), whole)
+        # Another mapping's, under a name of ours.
+        self.assertTrue(save("--seed", "2"))
+        other = self.saved.read_bytes()
+        self.assertTrue(save())
+        self.saved.write_bytes(other)
+        self.assertTrue(save("-u"))
+        # Another cage's is not replaced.
+        result = self.run_program(
+            "map", CAGES / "sphere.obj", EXEMPLAR, "-o",
+            self.folder / "b.obj", "--level", "1", "--save", self.saved)
+        self.assert_error(result, 1, "belongs to another job")
+
+    def test_maps_of_its_material_are_kept(self):
+        """They have the names that a job without them would give to its own
+        maps."""
+        for kind in "normal", "height":
+            shutil.copy(ROOT / "models/materials/waves"
+                        / f"waves_{kind}{'_gl' * (kind == 'normal')}.png",
+                        self.folder / f"n_{kind}.exr")
+        before = (self.folder / "n_normal.exr").read_bytes()
+        result = self.run_program(
+            "map", CAGE, ROOT / "models/materials/waves/waves_color.png",
+            "--map", f"normal={self.folder}/n_normal.exr,"
+            f"height={self.folder}/n_height.exr", "--level", "1", "-o",
+            self.folder / "m.obj", "--save", self.saved)
+        self.assert_exit(result, 0)
+        how = "map", "--from", self.saved, "-o"
+        self.assert_error(
+            self.run_program(*how, self.folder / "n.obj"), 1,
+            "is an input and would be replaced")
+        self.assertEqual((self.folder / "n_normal.exr").read_bytes(), before)
+        # And what is written of them is looked at.
+        for words in "wrote", "up to date":
+            result = self.run_program(*how, self.folder / "o.obj", "-u")
+            self.assert_exit(result, 0)
+            self.assertIn(words, result.stderr)
+        (self.folder / "o_height.exr").unlink()
+        self.assertIn("wrote", self.run_program(
+            *how, self.folder / "o.obj", "-u").stderr)
 
     def test_several_exemplars(self):
         """All of their textures are looked at."""
@@ -185,6 +240,43 @@ class Saved(ProgramTest):
                     continue
                 self.assertEqual(result.returncode, 2, result.stderr)
             self.assertFalse((self.folder / "x.1001.exr").exists())
+
+    def change(self, **about):
+        """Another file that says so of itself."""
+        whole = self.saved.read_bytes()
+        length = struct.unpack("<Q", whole[:8])[0]
+        header = json.loads(whole[8:8 + length])
+        said = json.loads(header["__metadata__"]["osdtex"])
+        for key, value in about.items():
+            of = said["exemplars"][0] if key.startswith("e_") else said["cage"]
+            of[key.removeprefix("e_")] = value
+        header["__metadata__"]["osdtex"] = json.dumps(said)
+        text = json.dumps(header).encode()
+        text += b" " * (-(8 + len(text)) % 64)
+        other = self.folder / "other.osdtex"
+        other.write_bytes(
+            struct.pack("<Q", len(text)) + text + whole[8 + length:])
+        return other
+
+    def test_what_hostile_files_say(self):
+        """Nothing is waited for, made that is not there, or printed that a
+        terminal would obey."""
+        self.save()
+        os.mkfifo(self.folder / "pipe")
+        for about, words in (
+                ({"level": 10}, "do not fit the cage at its level"),
+                ({"path": str(self.folder / "pipe")}, "is a folder, a pipe"),
+                ({"path": str(self.folder)}, "is a folder, a pipe")):
+            with self.subTest(about):
+                result = self.bake_from(
+                    saved=self.change(**about), timeout=60)
+                self.assert_error(result, 2, words)
+        hostile = self.change(path="x\x1b[31m\nosdtex: fine", e_path="\x1b]0;y")
+        result = self.run_program("info", hostile)
+        self.assert_exit(result, 0)
+        self.assertNotIn("\x1b", result.stdout)
+        self.assertNotIn("\nosdtex: fine", result.stdout)
+        self.assertIn("x?[31m?osdtex: fine", result.stdout)
 
     def test_info(self):
         self.save()

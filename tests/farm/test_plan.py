@@ -112,6 +112,68 @@ class Plan(JobTest):
                     self.assertFalse((self.folder / "f").exists())
                 shutil.rmtree(job.parent)
 
+    def test_tasks_that_read_what_others_write(self):
+        """Maps of materials and saved mappings are files like others."""
+        q = f"plane.obj {QUICK}"
+        save = f"{q} --save out/m.osdtex -o out/a.obj"
+        normal = "--map normal=out/b_normal.exr"
+        for one, two, words in (
+                (save, "--from out/m.osdtex --resolution 64 -o out/b.obj",
+                 "task 1 ('second') reads 'out/m.osdtex', which task 0 "
+                 "('first') writes"),
+                ("--from ./out/m.osdtex -o out/b.obj", save,
+                 "task 0 ('first') reads './out/m.osdtex', which task 1 "),
+                (f"{q} -o out/a.obj", f"out/a_cage.obj {QUICK} -o out/b.obj",
+                 "reads 'out/a_cage.obj', which task 0 "),
+                (save, f"{q} --save out/m.osdtex -o out/b.obj",
+                 "would both write 'out/m.osdtex'"),
+                (f"{q} {normal} -o out/c.obj",
+                 f"{q} --preview out/b_normal.exr -o out/b.obj",
+                 "task 0 ('first') reads 'out/b_normal.exr', which task 1"),
+                (f"{q} -o out/a.obj", f"{q} -o out/b.obj", None)):
+            with self.subTest(two):
+                job = self.write_job("job", [("first", one), ("second", two)])
+                result = self.run_program("plan", job, "-o", self.folder / "f")
+                if words is None:
+                    self.assert_exit(result, 0)
+                else:
+                    self.assert_error(result, 2, words)
+                shutil.rmtree(job.parent)
+
+    def test_maps_that_two_tasks_write(self):
+        job = self.write_job("job", TASKS)
+        tasks = [
+            {"name": "one", "command": "map", "arguments":
+             f"plane.obj {QUICK} --map normal=n.png -o out/a.obj"},
+            {"name": "two", "command": "map", "arguments":
+             f"plane.obj {QUICK} -o out/a_normal.obj"}]
+        job.write_text(json.dumps({"name": "j", "tasks": tasks}))
+        self.assert_error(
+            self.run_program("plan", job, "-o", self.folder / "f"), 2,
+            "would both write 'out/a_normal.exr'")
+
+    def test_a_saved_mapping_is_a_task(self):
+        """And a material, whose colour no operand names."""
+        job = self.write_job("job", TASKS)
+        here = {"cwd": job.parent}
+        self.assert_exit(self.run_program(
+            "map", "plane.obj", *QUICK.split()[:-2], "-o", "out/m.obj",
+            "--save", "m.osdtex", **here), 0)
+        (job.parent / "set").mkdir()
+        shutil.copy(job.parent / "gravel.png", job.parent / "set/g_color.png")
+        job.write_text(json.dumps({"name": "j", "tasks": [
+            {"name": "one", "command": "bake", "arguments":
+             "--from m.osdtex --resolution 64 -o out/a.obj"},
+            {"name": "two", "command": "map", "arguments":
+             "plane.obj --material set --level 1 --scale 2 -o out/b.obj"}]}))
+        self.plan(job, "make")
+        self.run_all(job, 2)
+        self.assertTrue((job.parent / "out/a.1001.exr").exists())
+        self.assertTrue((job.parent / "out/b.exr").exists())
+        for task in range(2):
+            again = self.run_program("run", job, "--task", task)
+            self.assertIn("is up to date", again.stderr)
+
     def test_shared_report(self):
         job = SHARED / "reports" / "same_outputs_job.json"
         if not job.exists():
