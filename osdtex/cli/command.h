@@ -42,8 +42,8 @@ int otx_command_refuse(const char *name);
 
 /* Whether it can do with so many operands: a saved mapping names them, a
  * material its colour. */
-bool otx_command_takes(
-    const otx_command *command, const otx_flag_values *values);
+bool
+otx_command_takes(const otx_command *command, const otx_flag_values *values);
 
 /* Help on one of its flags. */
 const char *otx_command_flag_help(const otx_command *command, otx_flag_id flag);
