@@ -308,7 +308,7 @@ look_twice(search *s, struct dirent **entries, int count)
     OTX_TRY(look_through(s, entries, count, false));
     if (s->out->paths[OTX_MATERIAL_COLOR])
         return OSDTEX_OK;
-    *s->out = (otx_material_files){{NULL}};
+    memset(s->out, 0, sizeof *s->out);
     memset(s->ranks, 0, sizeof s->ranks);
     s->pictures = 0;
     return look_through(s, entries, count, true);
