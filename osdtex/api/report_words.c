@@ -68,6 +68,18 @@ static const otx_report_words MAPPING[] = {
      "RMS distance of the picture's u axis from where the field has it; 1 is "
      "the axis' length."},
     {"mapping.lapped.misfit_up", "", "The same of the v axis."},
+    {"mapping.made.charts", "charts", "Charts that the surface was made in."},
+    {"mapping.made.texels", "texels", "Texels that were made."},
+    {"mapping.made.coherence", "",
+     "Share of texels that go on from their neighbour."},
+    {"mapping.made.departure", "degrees",
+     "Mean angle between the exemplar's direction and the field."},
+    {"mapping.made.used", "",
+     "Share of the exemplar that is used: e to the entropy of 256 cells."},
+    {"mapping.made.contrast", "",
+     "Spread of lightness over that of the exemplar."},
+    {"mapping.made.histogram", "",
+     "Mean distance of lightness of equal rank, over the exemplar's spread."},
 };
 
 static const otx_report_words SEAMS[] = {

@@ -22,7 +22,13 @@ static const double FILLED = 0.7;
 bool
 otx_baked_texture_is_needed(const otx_mapping *mapping)
 {
-    return mapping->lookups && mapping->lookups->layering == OTX_LAYERING_OVER;
+    const otx_level *leaf = otx_surface_leaf(mapping->surface);
+
+    return (mapping->lookups &&
+            mapping->lookups->layering == OTX_LAYERING_OVER) ||
+           (mapping->field &&
+            otx_source_field_is_whole(
+                mapping->field, leaf->face_hole, leaf->face_count));
 }
 
 otx_status

@@ -551,7 +551,7 @@ say_what_is_left(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const char *path)
 {
-    if (mapping->field)
+    if (mapping->field && !otx_baked_texture_is_needed(mapping))
         otx_note(
             run, OSDTEX_SEVERITY_WARNING, STAGE, otx_where_file(path),
             "UVs cannot say what was healed, so seams are in it as they were; "
@@ -560,8 +560,8 @@ say_what_is_left(
         otx_companions_are_there(&exemplars->companions))
         otx_note(
             run, OSDTEX_SEVERITY_WARNING, STAGE, otx_where_file(path),
-            "of pastes only the colour is written beside the mesh; a bake has "
-            "all maps of the material");
+            "of what is baked only the colour is written beside the mesh; a "
+            "bake has all maps of the material");
 }
 
 otx_status

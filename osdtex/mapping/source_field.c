@@ -1,8 +1,9 @@
 /* source_field.c -- faces that show places of an exemplar texel by texel. */
 #include "mapping/source_field.h"
 
-#include <stdbool.h>
-
+/* Share of the faces that are made where a whole surface is; a face that no
+ * chart can lay out is left. */
+#define WHOLE 0.95
 #define AGREED 0.5 /* texels between two that go on to one place */
 
 static otx_vec2
@@ -108,4 +109,18 @@ otx_source_field_look(
     }
     gather(chart->unit, out);
     normalise(out);
+}
+
+bool
+otx_source_field_is_whole(
+    const otx_source_field *field, const uint8_t *face_hole, int32_t face_count)
+{
+    int64_t all = 0, made = 0;
+
+    for (int32_t f = 0; f < face_count; ++f)
+    {
+        all += !face_hole[f];
+        made += !face_hole[f] && field->face_chart[f] >= 0;
+    }
+    return (double)made > WHOLE * (double)all;
 }

@@ -12,6 +12,8 @@
 
 #include "math/vec.h"
 
+#include <stdbool.h>
+
 enum
 {
     OTX_SOURCE_FIELD_TERMS = 4 /* lookups at a place */
@@ -61,5 +63,12 @@ typedef struct otx_source_term
 void otx_source_field_look(
     const otx_source_field *field, int32_t face, const int32_t corners[3],
     const double at[3], otx_source_term out[OTX_SOURCE_FIELD_TERMS]);
+
+/* Whether it is of a whole surface, so that next to nothing shows its UVs.
+ *
+ *   face_hole  [face_count] */
+bool otx_source_field_is_whole(
+    const otx_source_field *field, const uint8_t *face_hole,
+    int32_t face_count);
 
 #endif

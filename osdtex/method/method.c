@@ -10,12 +10,11 @@ extern const otx_method otx_method_hierarchical;
 extern const otx_method otx_method_lapped;
 extern const otx_method otx_method_material;
 extern const otx_method otx_method_tile;
+extern const otx_method otx_method_vertex;
 
 static const otx_method *const METHODS[] = {
-    &otx_method_hierarchical,
-    &otx_method_material,
-    &otx_method_tile,
-    &otx_method_lapped,
+    &otx_method_hierarchical, &otx_method_material, &otx_method_tile,
+    &otx_method_lapped,       &otx_method_vertex,
 };
 
 int32_t
@@ -140,13 +139,12 @@ otx_method_map(const otx_method *method, const otx_job *job, otx_mapping *out)
         method->name);
 }
 
-otx_status
-otx_method_fill(
-    const otx_job *job, const otx_patch_given *given, otx_mapping *out)
+/* The first method of the table that can fill, with its own settings instead
+ * of job->settings. */
+static otx_status
+find_filling(const otx_job *job, const otx_method **out, void **settings)
 {
     const otx_method *method = NULL;
-    otx_job filling = *job;
-    void *settings;
 
     for (int32_t i = 0; i < otx_method_count() && !method; ++i)
         if (METHODS[i]->fill)
@@ -155,11 +153,38 @@ otx_method_fill(
         return otx_fail(
             job->run, OSDTEX_ERROR_SUPPORT, "map", OTX_NOWHERE,
             "this build has no method that fills in patches");
-    settings = otx_arena_zalloc(job->run->arena, 1, method->settings_bytes);
+    *settings = otx_arena_zalloc(job->run->arena, 1, method->settings_bytes);
     OTX_TRY(otx_run_ok(job->run));
-    otx_option_defaults(method->options, method->option_count, settings);
+    otx_option_defaults(method->options, method->option_count, *settings);
+    *out = method;
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_method_fill(
+    const otx_job *job, const otx_patch_given *given, otx_mapping *out)
+{
+    const otx_method *method;
+    otx_job filling = *job;
+    void *settings;
+
+    OTX_TRY(find_filling(job, &method, &settings));
     filling.settings = settings;
     return method->fill(&filling, given, out);
+}
+
+otx_status
+otx_method_patches(const otx_job *job, otx_mapping *out)
+{
+    const otx_method *method;
+    otx_job covering = *job;
+    void *settings;
+
+    OTX_TRY(find_filling(job, &method, &settings));
+    if (method->resolve)
+        method->resolve(settings, job->exemplars, job->surface->cage);
+    covering.settings = settings;
+    return method->map(&covering, out);
 }
 
 /* Says why the others were not taken. */

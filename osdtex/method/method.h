@@ -103,6 +103,10 @@ otx_status otx_method_choose(const otx_job *job, const otx_method **out);
 otx_status otx_method_fill(
     const otx_job *job, const otx_patch_given *given, otx_mapping *out);
 
+/* Covers the surface by the same method with its automatic settings, for one
+ * that goes on from patches. SUPPORT likewise, and as its `map`. */
+otx_status otx_method_patches(const otx_job *job, otx_mapping *out);
+
 /* Runs `method`. The mapping lives in run->arena and borrows the surface.
  * job->figures are begun anew. INTERNAL when what the method returned is no
  * mapping; else ARGUMENT, LIMIT, TOPOLOGY, SUPPORT, and what the method says.

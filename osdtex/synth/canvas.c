@@ -118,15 +118,35 @@ match_over(const otx_canvas *fine, const ptrdiff_t children[4], uint8_t kind)
     return (otx_synth_match){0.0f, 0.0f, 1.0f, 0.0f};
 }
 
+/* Adds the one of a direction's equals that is nearest to what there is. */
 static void
-mix_field(const otx_canvas *fine, const ptrdiff_t children[4], float *out)
+add_direction(const float *f, int32_t symmetry, float sum[2])
+{
+    float c = f[0], s = f[1];
+
+    if (symmetry > 2 &&
+        fabsf(sum[0] * s - sum[1] * c) > fabsf(sum[0] * c + sum[1] * s))
+    {
+        c = -f[1];
+        s = f[0];
+    }
+
+    const bool turned = symmetry > 1 && sum[0] * c + sum[1] * s < 0.0f;
+
+    sum[0] += turned ? -c : c;
+    sum[1] += turned ? -s : s;
+}
+
+static void
+mix_field(
+    const otx_canvas *fine, const ptrdiff_t children[4], int32_t symmetry,
+    float *out)
 {
     float sum[2] = {0.0f, 0.0f};
 
     for (int i = 0; i < 4; ++i)
         if (fine->kinds[children[i]])
-            for (int k = 0; k < 2; ++k)
-                sum[k] += fine->field[2 * children[i] + k];
+            add_direction(fine->field + 2 * children[i], symmetry, sum);
 
     const float length = sqrtf(sum[0] * sum[0] + sum[1] * sum[1]);
 
@@ -174,14 +194,14 @@ metric_over(const otx_canvas *fine, const ptrdiff_t children[4], otx_vec2 step)
 static void
 reduce_texel(
     const otx_canvas *fine, const ptrdiff_t children[4], ptrdiff_t to,
-    otx_vec2 step, otx_canvas *c)
+    otx_vec2 step, int32_t symmetry, otx_canvas *c)
 {
     c->kinds[to] = kind_over(fine, children);
     c->metric[to] = metric_over(fine, children, step);
     c->matches[to] = match_over(fine, children, c->kinds[to]);
     mix_colors(fine, fine->colors, children, &c->colors[to * c->quads]);
     if (c->field)
-        mix_field(fine, children, c->field + 2 * to);
+        mix_field(fine, children, symmetry, c->field + 2 * to);
     if (!c->anchor)
         return;
     mix_colors(fine, fine->anchor, children, &c->anchor[to * c->quads]);
@@ -192,7 +212,7 @@ reduce_texel(
 }
 
 static void
-reduce(const otx_canvas *fine, otx_canvas *c)
+reduce(const otx_canvas *fine, int32_t symmetry, otx_canvas *c)
 {
     const otx_vec2 step = {c->step_x / fine->step_x, c->step_y / fine->step_y};
 
@@ -206,7 +226,8 @@ reduce(const otx_canvas *fine, otx_canvas *c)
             const ptrdiff_t children[4] = {
                 at, at + right, above, above + right};
 
-            reduce_texel(fine, children, otx_canvas_index(c, x, y), step, c);
+            reduce_texel(
+                fine, children, otx_canvas_index(c, x, y), step, symmetry, c);
         }
 }
 
@@ -283,7 +304,7 @@ otx_canvas_build(
         if (l == 0)
             fill(chart, options->given, c);
         else
-            reduce(&out->levels[l - 1], c);
+            reduce(&out->levels[l - 1], options->symmetry, c);
         otx_canvas_wrap(c);
     }
     for (int32_t l = 0; l < level_count; ++l)

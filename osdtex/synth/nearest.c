@@ -33,12 +33,22 @@ overuse(const seeker *s, otx_synth_match m)
                : 0.0f;
 }
 
+/* Within the tolerance of the nearest of the field's directions. */
 static bool
 is_held(const seeker *s, ptrdiff_t at, otx_synth_match m)
 {
     const float *f = s->canvas->field;
+    const int32_t symmetry = s->pass->symmetry;
 
-    return !f || m.c * f[2 * at] + m.s * f[2 * at + 1] >= s->cos_tolerance;
+    if (!f)
+        return true;
+
+    const float along = m.c * f[2 * at] + m.s * f[2 * at + 1];
+    const float across = m.s * f[2 * at] - m.c * f[2 * at + 1];
+
+    return along >= s->cos_tolerance ||
+           (symmetry > 1 && -along >= s->cos_tolerance) ||
+           (symmetry > 2 && fabsf(across) >= s->cos_tolerance);
 }
 
 static void

@@ -20,6 +20,7 @@ typedef struct otx_nearest_pass
                        * 0: none are made */
     double turn;      /* random angles, radians */
     double tolerance; /* of a field, radians */
+    int32_t symmetry; /* of a field */
     const otx_occurrence *usage; /* NULL: it costs nothing */
 } otx_nearest_pass;
 

@@ -75,6 +75,7 @@ otx_maker_search(otx_maker *m, int32_t level, int32_t round, int32_t passes)
         .reach = reach_at(m, level),
         .turn = o->turn,
         .tolerance = o->tolerance,
+        .symmetry = o->symmetry,
         .usage = usage > 0.0 ? m->usage : NULL};
 
     for (int32_t i = 0; i < passes; ++i)

@@ -89,6 +89,8 @@ typedef struct otx_synth_options
     double histogram;      /* share of matching L to the exemplar's; 0 none */
     double turn;           /* search angles within +- of the match, radians */
     double tolerance;      /* of a field, radians */
+    int32_t symmetry;      /* of a field: turns by 360 / symmetry degrees are
+                            * equal in it; 1, 2 or 4 */
     uint64_t seed;
     const char *stage; /* of progress */
 } otx_synth_options;
@@ -105,6 +107,7 @@ otx_synth_mending(void)
         .starts = 1,
         .turn = OTX_PI,
         .tolerance = OTX_PI,
+        .symmetry = 1,
         .stage = "synth",
     };
 }
@@ -122,6 +125,7 @@ otx_synth_making(void)
         .histogram = 0.7,
         .turn = OTX_PI,
         .tolerance = OTX_PI / 18.0,
+        .symmetry = 1,
         .stage = "synth",
     };
 }

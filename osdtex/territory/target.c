@@ -26,7 +26,35 @@ typedef struct lookup
 {
     otx_vec2 at, dx, dy; /* of the plot's origin, and per texel */
     otx_vec2 turn;       /* from the metric's frame */
+    otx_vec2 field;      /* that it should be by the guide */
 } lookup;
+
+/* The rotation from the metric's frame to the exemplar by which its direction
+ * lies along the guide's. */
+static otx_vec2
+follow(const otx_target_set *h, const otx_plot_facet *f)
+{
+    const float *points = h->mapping->surface->points;
+    const int32_t *verts = otx_surface_leaf(h->mapping->surface)->face_verts;
+    const otx_vec3 origin = otx_vec3_load(points, verts[f->facet.corners[0]]);
+    const otx_vec3 a =
+        otx_vec3_sub(otx_vec3_load(points, verts[f->facet.corners[1]]), origin);
+    const otx_vec3 b =
+        otx_vec3_sub(otx_vec3_load(points, verts[f->facet.corners[2]]), origin);
+    const otx_vec3 x = otx_vec3_unit(a);
+    const otx_vec3 y = otx_vec3_unit(otx_vec3_cross(otx_vec3_cross(a, b), a));
+    const otx_vec3 d = h->guide->directions[f->facet.face];
+    const otx_vec2 along = otx_vec2_mul(
+        (otx_vec2){otx_vec3_dot(d, x), otx_vec3_dot(d, y)},
+        (otx_vec2){f->rotation.x, -f->rotation.y});
+    const double length = otx_vec2_length(along);
+
+    if (!(length > 0.0))
+        return (otx_vec2){1.0, 0.0};
+    return otx_vec2_mul(
+        otx_vec2_polar(h->guide->angle),
+        (otx_vec2){along.x / length, -along.y / length});
+}
 
 /* False where UVs are reversed, or there are none; the place then is the same
  * throughout. */
@@ -37,8 +65,10 @@ look_up(const otx_target_set *h, const otx_plot_facet *f, lookup *out)
     const double *m = f->metric;
     const double det = m[0] * m[2] - m[1] * m[1];
 
-    *out = (lookup){{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}};
-    for (int k = 0; h->mapping->uvs && k < 3; ++k)
+    *out = (lookup){{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}, {1.0, 0.0}};
+    if (h->guide)
+        out->field = follow(h, f);
+    for (int k = 0; k < 3; ++k)
     {
         const float *uv = h->mapping->uvs + 2 * (size_t)f->facet.corners[k];
         const otx_vec2 at = {
@@ -120,6 +150,11 @@ fill_texel(
         (float)(look->at.x + (x + 0.5) * look->dx.x + (y + 0.5) * look->dy.x),
         (float)(look->at.y + (x + 0.5) * look->dx.y + (y + 0.5) * look->dy.y),
         (float)look->turn.x, (float)look->turn.y};
+    if (t->field)
+    {
+        t->field[2 * i] = (float)look->field.x;
+        t->field[2 * i + 1] = (float)look->field.y;
+    }
     t->kinds[i] =
         own && (h->whole || plot->near[i]) ? OTX_SYNTH_FREE : OTX_SYNTH_FROZEN;
     t->free += t->kinds[i] == OTX_SYNTH_FREE;
@@ -169,6 +204,8 @@ otx_target_fill(otx_target_set *h, int32_t k)
     t->metric = OTX_ZNEW(arena, float, 3 * count);
     t->matches = OTX_ZNEW(arena, otx_synth_match, count);
     t->places = OTX_ZNEW(arena, otx_synth_place, count);
+    if (h->guide)
+        t->field = OTX_ZNEW(arena, float, 2 * count);
     OTX_TRY(otx_run_ok(h->run));
     for (int32_t slot = 0; slot < plot->chart->face_count && count > 0; ++slot)
         for (int32_t i = 0; i < otx_facet_count(leaf, plot->chart->faces[slot]);
@@ -192,6 +229,7 @@ otx_target_charts(const otx_target_set *h, otx_synth_chart *out)
                 .kinds = t->kinds,
                 .metric = t->metric,
                 .places = t->places,
+                .field = t->field,
                 .matches = t->matches};
     }
 }

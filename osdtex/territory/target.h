@@ -15,6 +15,7 @@ typedef struct otx_target
     float *metric;
     otx_synth_match *matches;
     otx_synth_place *places;
+    float *field; /* NULL without a guide */
     int64_t free; /* texels to make */
 } otx_target;
 
@@ -25,10 +26,11 @@ typedef struct otx_target_set
     const otx_exemplar *exemplars;
     double texels; /* per scene unit */
     otx_territory territory;
-    otx_plot *plots;     /* [territory.count] */
-    otx_target *targets; /* likewise */
-    int32_t exemplar;    /* at hand */
-    bool whole;          /* all is near; UVs may be reversed, or none: NULL */
+    otx_plot *plots;        /* [territory.count] */
+    otx_target *targets;    /* likewise */
+    int32_t exemplar;       /* at hand */
+    const otx_guide *guide; /* that the exemplar at hand follows; NULL */
+    bool whole; /* all is near, and UVs may be reversed or without area */
 } otx_target_set;
 
 /* Parts the surface of set->mapping into charts and lays out their plots, in

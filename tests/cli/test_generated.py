@@ -20,7 +20,7 @@ from program import (
     ENVIRONMENT, EXEMPLARS, PROGRAM, ProgramTest, main)
 
 CASES = int(os.environ.get("CASES", 300))
-METHODS = ("hierarchical", "material", "tile", "lapped")
+METHODS = ("hierarchical", "material", "tile", "lapped", "vertex")
 SCHEMES = (None, None, "catmark", "loop", "bilinear", "none")
 TILES = "tiles.exr"  # what method tile takes, made of one of the others
 PICTURES = ("gravel_tile.png", "stones_open.png", "bricks_tile.png")
@@ -47,7 +47,7 @@ def case_of(number):
         words += ["--resolution", "64", "--margin", "4"]
         words += rng.choice(([], ["--uvs", "atlas"], ["--uvs", "own"],
                              ["--seam-blend", "4"], ["--extra", "patch,uv"]))
-    elif method == "lapped":
+    elif method in ("lapped", "vertex"):
         words += ["--resolution", "256"]
     picture = rng.choice(PICTURES)
     if method == "tile":

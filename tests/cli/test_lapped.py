@@ -55,7 +55,7 @@ class Lapped(ProgramTest):
             EXEMPLARS.parent / "materials" / "waves", "-o",
             self.folder / "out.obj")
         self.assert_exit(result, 0)
-        self.assertIn("of pastes only the colour", result.stderr)
+        self.assertIn("only the colour is written", result.stderr)
 
     def test_what_takes_for_ever_is_refused(self):
         result = self.run_map(CAGE, PICTURE, *HOW, "--scale", "1e-4")
