@@ -6,7 +6,7 @@
 enum
 {
     CELL = 6, /* texels, of the test against folds */
-    CORNERS_MAX = 1024
+    CORNERS_MAX = OTX_LAPPED_CORNERS
 };
 
 /* How much surface a cell may carry, of its area. */
@@ -132,7 +132,7 @@ heading_of(const otx_growth *g, int32_t face)
     for (int32_t k = 0; k < otx_level_face_size(l->leaf, face); ++k)
     {
         const int32_t other = otx_level_neighbour(l->leaf, face, k);
-        const int32_t slot = other >= 0 ? l->space.face_slot[other] : -1;
+        const int32_t slot = other >= 0 ? g->space->face_slot[other] : -1;
 
         if (slot >= 0)
             sum = otx_vec2_add(
@@ -174,7 +174,7 @@ join(const otx_growth *g, candidate *c)
 
     for (int32_t k = 0; k < c->size; ++k)
     {
-        const int32_t slot = l->space.vert_slot[verts[k]];
+        const int32_t slot = g->space->vert_slot[verts[k]];
 
         c->known[k] = slot >= 0;
         if (slot < 0)
@@ -186,7 +186,7 @@ join(const otx_growth *g, candidate *c)
     for (int32_t k = 0; k < c->size; ++k)
         c->flat[k] =
             c->known[k]
-                ? g->chart->flat[l->space.vert_slot[verts[k]]]
+                ? g->chart->flat[g->space->vert_slot[verts[k]]]
                 : otx_vec2_add(
                       c->flat[k],
                       otx_vec2_scale(1.0 / (known > 0 ? known : 1), move));
@@ -314,7 +314,7 @@ push_edges(otx_growth *g, int32_t face, const int32_t *corners)
         const otx_vec2 b = g->chart->flat[corners[k + 1 < size ? k + 1 : 0]];
 
         if (other >= 0 && !leaf->face_hole[other] &&
-            g->l->space.face_slot[other] < 0)
+            g->space->face_slot[other] < 0)
             otx_pqueue_push(
                 &g->queue, otx_vec2_length(otx_vec2_lerp(a, b, 0.5)),
                 leaf->face_first[face] + k);
@@ -336,7 +336,7 @@ add(otx_growth *g, const candidate *c)
     corners = chart->corners + chart->first[chart->face_count];
     for (int32_t k = 0; k < c->size; ++k)
     {
-        int32_t *slot = &l->space.vert_slot[verts[k]];
+        int32_t *slot = &g->space->vert_slot[verts[k]];
 
         if (*slot < 0)
         {
@@ -346,7 +346,7 @@ add(otx_growth *g, const candidate *c)
         }
         corners[k] = *slot;
     }
-    l->space.face_slot[c->face] = chart->face_count;
+    g->space->face_slot[c->face] = chart->face_count;
     chart->faces[chart->face_count] = c->face;
     g->headings[chart->face_count++] = c->heading;
     chart->first[chart->face_count] =
@@ -389,7 +389,7 @@ static bool
 reaches(const otx_growth *g, int32_t face, int32_t k)
 {
     const otx_lapped_chart *c = g->chart;
-    const int32_t slot = g->l->space.face_slot[face];
+    const int32_t slot = g->space->face_slot[face];
     const int32_t first = c->first[slot], size = c->first[slot + 1] - first;
     const otx_vec2 a = c->flat[c->corners[first + k]];
     const otx_vec2 b = c->flat[c->corners[first + (k + 1) % size]];
@@ -429,8 +429,6 @@ begin(otx_growth *g)
 
     c.face = g->seed->face;
     c.size = otx_level_face_size(l->leaf, c.face);
-    if (c.size > CORNERS_MAX)
-        return OSDTEX_ERROR_SUPPORT;
     c.heading = l->guide.directions ? guided(l, c.face, g->seed->heading)
                                     : g->seed->heading;
     turn_corners(l, &c);
@@ -463,7 +461,7 @@ otx_growth_run(otx_growth *g)
         const int32_t k = entry.item - g->l->leaf->face_first[face];
         const int32_t other = otx_level_neighbour(g->l->leaf, face, k);
 
-        if (g->l->space.face_slot[other] < 0 && reaches(g, face, k))
+        if (g->space->face_slot[other] < 0 && reaches(g, face, k))
             OTX_TRY(try_face(g, other));
     }
     return otx_arena_failed(g->arena) ? OSDTEX_ERROR_MEMORY : OSDTEX_OK;
@@ -480,7 +478,7 @@ try_sewing(otx_growth *g, int32_t face, double ratio, int32_t *added)
         return OSDTEX_OK;
     for (int32_t k = 0; k < c.size; ++k)
     {
-        const int32_t slot = l->space.vert_slot[verts[k]];
+        const int32_t slot = g->space->vert_slot[verts[k]];
 
         if (slot < 0)
             return OSDTEX_OK;
@@ -508,7 +506,7 @@ otx_growth_sew(otx_growth *g, double ratio, int32_t *added)
             const int32_t other = otx_level_neighbour(leaf, face, k);
 
             if (other >= 0 && !leaf->face_hole[other] &&
-                g->l->space.face_slot[other] < 0)
+                g->space->face_slot[other] < 0)
                 OTX_TRY(try_sewing(g, other, ratio, added));
         }
     }

@@ -14,6 +14,8 @@ typedef struct otx_growth
 {
     const otx_lapped *l;
     const otx_lapped_seed *seed;
+    const otx_lapped_space *space;
+    const otx_worker *worker; /* asked whether to stop; NULL */
     otx_arena *arena;
     otx_lapped_chart *chart;
     int32_t face_capacity, vert_capacity, corner_capacity;

@@ -22,6 +22,11 @@ typedef enum otx_lapped_mode
 /* A sample counts as covered from this alpha on. */
 static const double OTX_LAPPED_COVERED = 0.995;
 
+enum
+{
+    OTX_LAPPED_CORNERS = 1024 /* of a face, at most */
+};
+
 typedef struct otx_lapped_settings
 {
     double radius;  /* of texture patches, texels; 0 automatic */
@@ -65,6 +70,14 @@ typedef struct otx_lapped_space
     int32_t *vert_slot; /* [leaf vert_count] chart vertex or -1 */
 } otx_lapped_space;
 
+/* What a thread that makes a paste has to itself. */
+typedef struct otx_lapped_room
+{
+    otx_lapped_space *space;
+    otx_arena *arena;
+    const otx_worker *worker; /* asked whether to stop; NULL */
+} otx_lapped_room;
+
 typedef struct otx_lapped
 {
     const otx_job *job;
@@ -76,7 +89,6 @@ typedef struct otx_lapped
     otx_guide guide; /* without directions: those of seeds are carried on */
     otx_lapped_settings settings;
     double texels; /* per scene unit */
-    otx_lapped_space space;
     otx_samples samples;
     otx_lapped_paste *pastes; /* [paste_count], bottom first */
     int32_t paste_count;
@@ -94,17 +106,17 @@ typedef struct otx_lapped_seed
 /* Where a sample of a leaf face is on the surface. */
 otx_vec3 otx_lapped_point(const otx_lapped *l, const otx_sample_place *sample);
 
-/* Grows a chart from a seed until the outline, enlarged, lies inside it, and
- * lays it out along the field [Praun00, sec. 3.3, 3.4]. In `arena`. MEMORY,
- * CANCELLED. */
+/* Grows a chart from a seed until all within `reach` texels lies inside it, and
+ * lays it out along the field [Praun00, sec. 3.3, 3.4]. In room->arena. MEMORY,
+ * without a finding; CANCELLED. */
 otx_status otx_lapped_unfold(
-    const otx_lapped *l, const otx_lapped_seed *seed, const otx_radial *outline,
-    otx_arena *arena, otx_lapped_chart *out);
+    const otx_lapped *l, const otx_lapped_room *room,
+    const otx_lapped_seed *seed, double reach, otx_lapped_chart *out);
 
 /* Makes chart->rim: the border cuts the patch off where it runs inside of the
- * outline, unless the surface ends there. MEMORY. */
+ * outline, unless the surface ends there. MEMORY, without a finding. */
 otx_status otx_lapped_rim(
-    const otx_lapped *l, const otx_radial *outline, otx_arena *arena,
+    const otx_lapped *l, const otx_lapped_room *room, const otx_radial *outline,
     otx_lapped_chart *chart);
 
 /* Texels per scene unit at a leaf face. */
@@ -118,13 +130,44 @@ otx_lapped_texels(const otx_lapped *l, int32_t face)
                            otx_level_face_size(l->leaf, face));
 }
 
-/* Where a sample of a chart's face lies in its plane. */
-otx_vec2 otx_lapped_place(
-    const otx_lapped *l, const otx_lapped_chart *chart, int32_t slot,
-    const otx_sample_place *sample);
+/* A triangle of a chart's face in the plane, and its samples. */
+typedef struct otx_lapped_facet
+{
+    otx_vec2 origin, x, y;
+    const otx_vec2 *lattice; /* [count] shares of x and y */
+    int32_t count;
+    int64_t first; /* of its samples among all */
+} otx_lapped_facet;
 
-/* Marks the samples that a paste covers, and keeps what it shows there. */
-void otx_lapped_mark(otx_lapped *l, const otx_lapped_paste *paste);
+otx_lapped_facet otx_lapped_facet_at(
+    const otx_lapped *l, const otx_lapped_chart *chart, int32_t slot,
+    int32_t index);
+
+static inline otx_vec2
+otx_lapped_place(const otx_lapped_facet *facet, int32_t sample)
+{
+    const otx_vec2 w = facet->lattice[sample];
+
+    return (otx_vec2){
+        facet->origin.x + w.x * facet->x.x + w.y * facet->y.x,
+        facet->origin.y + w.x * facet->x.y + w.y * facet->y.y};
+}
+
+/* Leaves out faces of which nothing is nearer to the middle than `reach`; the
+ * seed's stays. MEMORY, without a finding. */
+otx_status
+otx_lapped_trim(otx_arena *arena, double reach, otx_lapped_chart *chart);
+
+/* A copy in memory of its own size. MEMORY, without a finding. */
+otx_status otx_lapped_keep(
+    otx_arena *arena, const otx_lapped_chart *from, otx_lapped_chart *out);
+
+/* Marks the samples that a paste covers, and keeps what it shows there. Returns
+ * how many it is the first to cover. */
+int64_t otx_lapped_mark(otx_lapped *l, const otx_lapped_paste *paste);
+
+/* Lays pieces down until every sample is covered. */
+otx_status otx_lapped_paste_all(otx_lapped *l);
 
 /* Makes the mapping of all pastes, without what nobody sees. */
 otx_status otx_lapped_compose(otx_lapped *l, otx_mapping *out);

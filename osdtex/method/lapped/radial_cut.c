@@ -47,23 +47,6 @@ texel_of(const otx_lapped *l, otx_vec2 texel, float lab[3])
     memcpy(lab, otx_image_at(&e->lab, i, j), 3 * sizeof *lab);
 }
 
-otx_vec2
-otx_lapped_place(
-    const otx_lapped *l, const otx_lapped_chart *chart, int32_t slot,
-    const otx_sample_place *sample)
-{
-    const int32_t shift =
-        chart->first[slot] - l->leaf->face_first[chart->faces[slot]];
-    otx_vec2 at = {0, 0};
-
-    for (int k = 0; k < 3; ++k)
-        at = otx_vec2_add(
-            at, otx_vec2_scale(
-                    sample->at[k],
-                    chart->flat[chart->corners[sample->corners[k] + shift]]));
-    return at;
-}
-
 static int32_t
 cell_of(const plane *p, otx_vec2 at)
 {
@@ -104,15 +87,14 @@ add_samples(
     const otx_lapped_chart *c = &paste->chart;
 
     for (int32_t i = 0; i < c->face_count; ++i)
-        for (int32_t s = 0; s < otx_samples_count(&l->samples, c->faces[i]);
-             ++s)
+        for (int32_t t = 0; t < otx_facet_count(l->leaf, c->faces[i]); ++t)
         {
-            const otx_sample_place sample =
-                otx_samples_at(&l->samples, c->faces[i], s);
+            const otx_lapped_facet facet = otx_lapped_facet_at(l, c, i, t);
 
-            add_sample(
-                l, paste, p, count, l->samples.first[c->faces[i]] + s,
-                otx_lapped_place(l, c, i, &sample));
+            for (int32_t s = 0; s < facet.count; ++s)
+                add_sample(
+                    l, paste, p, count, facet.first + s,
+                    otx_lapped_place(&facet, s));
         }
 }
 
@@ -157,10 +139,9 @@ fill(plane *p, float *spare)
 
 static otx_status
 make_plane(
-    const otx_lapped *l, const otx_radial *outline,
+    const otx_lapped *l, otx_arena *scratch, const otx_radial *outline,
     const otx_lapped_paste *paste, plane *p)
 {
-    otx_arena *scratch = l->run->scratch;
     int32_t *count;
     float *spare;
 
@@ -169,7 +150,8 @@ make_plane(
     p->open = OTX_ZNEW(scratch, float, p->side * p->side);
     count = OTX_ZNEW(scratch, int32_t, p->side * p->side);
     spare = OTX_NEW(scratch, float, p->side * p->side);
-    OTX_TRY(otx_run_ok(l->run));
+    if (otx_arena_failed(scratch))
+        return OSDTEX_ERROR_MEMORY;
     add_samples(l, paste, p, count);
     divide(p, count);
     for (int i = 0; i < FILLS; ++i)
@@ -258,13 +240,14 @@ best_path(
  * where its ends are far. */
 otx_status
 otx_lapped_cut(
-    const otx_lapped *l, const otx_radial *outline, otx_lapped_paste *paste)
+    const otx_lapped *l, otx_arena *scratch, const otx_radial *outline,
+    otx_lapped_paste *paste)
 {
     double cost[ANGLES][RINGS];
     uint8_t path[ANGLES];
     plane p;
 
-    OTX_TRY(make_plane(l, outline, paste, &p));
+    OTX_TRY(make_plane(l, scratch, outline, paste, &p));
     price(&p, outline, cost);
     best_path(cost, 0, -1, path);
     best_path(cost, ANGLES / 2, path[ANGLES / 2], path);
@@ -275,25 +258,30 @@ otx_lapped_cut(
     return OSDTEX_OK;
 }
 
-void
+int64_t
 otx_lapped_mark(otx_lapped *l, const otx_lapped_paste *paste)
 {
     const otx_lapped_chart *c = &paste->chart;
+    int64_t fresh = 0;
 
     for (int32_t i = 0; i < c->face_count; ++i)
-        for (int32_t s = 0; s < otx_samples_count(&l->samples, c->faces[i]);
-             ++s)
+        for (int32_t t = 0; t < otx_facet_count(l->leaf, c->faces[i]); ++t)
         {
-            const otx_sample_place sample =
-                otx_samples_at(&l->samples, c->faces[i], s);
-            const otx_vec2 at = otx_lapped_place(l, c, i, &sample);
-            const double alpha = otx_radial_alpha(paste->cut, at, 0.0);
+            const otx_lapped_facet facet = otx_lapped_facet_at(l, c, i, t);
 
-            if (alpha >= OTX_LAPPED_COVERED)
-                otx_samples_set(&l->samples, c->faces[i], s);
-            if (alpha >= SHOWN)
-                texel_of(
-                    l, otx_vec2_add(paste->centre, at),
-                    l->samples.shown + 3 * (l->samples.first[c->faces[i]] + s));
+            for (int32_t s = 0; s < facet.count; ++s)
+            {
+                const otx_vec2 at = otx_lapped_place(&facet, s);
+                const double alpha = otx_radial_alpha(paste->cut, at, 0.0);
+
+                if (alpha >= OTX_LAPPED_COVERED)
+                    fresh += otx_samples_set(
+                        &l->samples, c->faces[i], facet.first + s);
+                if (alpha >= SHOWN)
+                    texel_of(
+                        l, otx_vec2_add(paste->centre, at),
+                        l->samples.shown + 3 * (facet.first + s));
+            }
         }
+    return fresh;
 }

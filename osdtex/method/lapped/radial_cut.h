@@ -10,9 +10,10 @@
 
 #include "method/lapped/lapped.h"
 
-/* Draws paste->cut in: `outline` is the furthest that it goes. Temporaries lie
- * in run->scratch. MEMORY. */
+/* Draws paste->cut in: `outline` is the furthest that it goes. MEMORY, without
+ * a finding. */
 otx_status otx_lapped_cut(
-    const otx_lapped *l, const otx_radial *outline, otx_lapped_paste *paste);
+    const otx_lapped *l, otx_arena *scratch, const otx_radial *outline,
+    otx_lapped_paste *paste);
 
 #endif

@@ -102,12 +102,18 @@ otx_samples_at(const otx_samples *cover, int32_t face, int32_t index)
         {1.0 - w.x - w.y, w.x, w.y}};
 }
 
-void
-otx_samples_set(otx_samples *cover, int32_t face, int32_t index)
+int32_t
+otx_samples_facet(const otx_samples *cover, int32_t face)
 {
-    uint8_t *covered = &cover->covered[cover->first[face] + index];
+    return triangle_samples(cover->steps[face]);
+}
 
-    cover->open[face] -= !*covered;
-    cover->left -= !*covered;
-    *covered = 1;
+bool
+otx_samples_set(otx_samples *cover, int32_t face, int64_t index)
+{
+    const bool fresh = !cover->covered[index];
+
+    cover->open[face] -= fresh;
+    cover->covered[index] = 1;
+    return fresh;
 }

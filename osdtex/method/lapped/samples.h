@@ -54,7 +54,12 @@ otx_samples_count(const otx_samples *cover, int32_t face)
 otx_sample_place
 otx_samples_at(const otx_samples *cover, int32_t face, int32_t index);
 
-/* Marks a sample as covered. */
-void otx_samples_set(otx_samples *cover, int32_t face, int32_t index);
+/* Samples of each of a face's triangles. */
+int32_t otx_samples_facet(const otx_samples *cover, int32_t face);
+
+/* Marks sample `index` of all, one of the face's, as covered. Whether it was
+ * not; `left` is the caller's to count, since faces may be marked by several
+ * threads. */
+bool otx_samples_set(otx_samples *cover, int32_t face, int64_t index);
 
 #endif

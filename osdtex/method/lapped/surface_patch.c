@@ -43,7 +43,7 @@ solve(otx_growth *g)
     for (int32_t i = 0; i < c->face_count; ++i)
         c->rights[i] =
             otx_connection_lift(&l->connection, c->faces[i], g->headings[i]);
-    return otx_aligned_solve(g->arena, &mesh, c->rights, NULL, c->flat);
+    return otx_aligned_solve(g->arena, &mesh, c->rights, g->worker, c->flat);
 }
 
 /* Whether all triangles of chart face i are near to an isometry. */
@@ -89,12 +89,12 @@ drop_stretched(otx_growth *g)
     {
         const int32_t first = c->first[i], size = c->first[i + 1] - first;
 
-        g->l->space.face_slot[c->faces[i]] = -1;
+        g->space->face_slot[c->faces[i]] = -1;
         if (i > 0 && !keeps_shape(g, i))
             continue;
         for (int32_t k = 0; k < size; ++k)
             c->corners[end + k] = c->corners[first + k];
-        g->l->space.face_slot[c->faces[i]] = count;
+        g->space->face_slot[c->faces[i]] = count;
         c->faces[count] = c->faces[i];
         c->rights[count] = c->rights[i];
         c->first[count++] = end;
@@ -117,7 +117,7 @@ centre(const otx_growth *g)
         const int32_t v = g->l->leaf->face_verts[s->corners[k]];
 
         at = otx_vec2_add(
-            at, otx_vec2_scale(s->at[k], c->flat[g->l->space.vert_slot[v]]));
+            at, otx_vec2_scale(s->at[k], c->flat[g->space->vert_slot[v]]));
     }
     for (int32_t v = 0; v < c->vert_count; ++v)
         c->flat[v] = otx_vec2_sub(c->flat[v], at);
@@ -139,31 +139,36 @@ lay_out(otx_growth *g)
     return OSDTEX_OK;
 }
 
+/* Of all faces that were ever in the chart. */
 static void
-forget_slots(const otx_lapped *l, const otx_lapped_chart *c)
+forget_slots(const otx_growth *g, int32_t face_count)
 {
-    for (int32_t i = 0; i < c->face_count; ++i)
-        l->space.face_slot[c->faces[i]] = -1;
+    const otx_lapped_chart *c = g->chart;
+
+    for (int32_t i = 0; i < face_count; ++i)
+        g->space->face_slot[c->faces[i]] = -1;
     for (int32_t v = 0; v < c->vert_count; ++v)
-        l->space.vert_slot[c->verts[v]] = -1;
+        g->space->vert_slot[c->verts[v]] = -1;
 }
 
 otx_status
 otx_lapped_unfold(
-    const otx_lapped *l, const otx_lapped_seed *seed, const otx_radial *outline,
-    otx_arena *arena, otx_lapped_chart *out)
+    const otx_lapped *l, const otx_lapped_room *room,
+    const otx_lapped_seed *seed, double reach, otx_lapped_chart *out)
 {
     otx_growth g = {
         .l = l,
         .seed = seed,
-        .arena = arena,
+        .space = room->space,
+        .worker = room->worker,
+        .arena = room->arena,
         .chart = out,
-        .hull = REACH * (double)outline->most,
+        .hull = REACH * reach,
     };
 
     *out = (otx_lapped_chart){0};
     OTX_TRY(lay_out(&g));
-    forget_slots(l, out);
+    forget_slots(&g, out->face_count);
     return OSDTEX_OK;
 }
 
@@ -187,12 +192,14 @@ cuts(const otx_radial *outline, otx_vec2 a, otx_vec2 b)
 
 /* Whether edge k of a chart face ends the chart, not the surface. */
 static bool
-is_border(const otx_lapped *l, const otx_lapped_chart *c, int32_t i, int32_t k)
+is_border(
+    const otx_lapped *l, const otx_lapped_space *space,
+    const otx_lapped_chart *c, int32_t i, int32_t k)
 {
     const int32_t other = otx_level_neighbour(l->leaf, c->faces[i], k);
 
     return other >= 0 && !l->leaf->face_hole[other] &&
-           l->space.face_slot[other] < 0;
+           space->face_slot[other] < 0;
 }
 
 /* Lengths from the border over edges, in texels, shorter each round. */
@@ -219,32 +226,33 @@ shorten(const otx_lapped_chart *c, double *reach)
 
 otx_status
 otx_lapped_rim(
-    const otx_lapped *l, const otx_radial *outline, otx_arena *arena,
+    const otx_lapped *l, const otx_lapped_room *room, const otx_radial *outline,
     otx_lapped_chart *c)
 {
-    double *reach = OTX_NEW(l->run->scratch, double, c->vert_count);
+    int32_t *slots = room->space->face_slot;
+    double *reach = OTX_NEW(room->arena, double, c->vert_count);
 
-    c->rim = OTX_NEW(arena, float, c->vert_count);
+    c->rim = OTX_NEW(room->arena, float, c->vert_count);
     if (!reach || !c->rim)
-        return otx_fail_memory(l->run, "map");
+        return OSDTEX_ERROR_MEMORY;
     for (int32_t v = 0; v < c->vert_count; ++v)
         reach[v] = RIM;
     for (int32_t i = 0; i < c->face_count; ++i)
-        l->space.face_slot[c->faces[i]] = i;
+        slots[c->faces[i]] = i;
     for (int32_t i = 0; i < c->face_count; ++i)
         for (int32_t k = c->first[i]; k < c->first[i + 1]; ++k)
         {
             const int32_t next = k + 1 < c->first[i + 1] ? k + 1 : c->first[i];
             const int32_t a = c->corners[k], b = c->corners[next];
 
-            if (is_border(l, c, i, k - c->first[i]) &&
+            if (is_border(l, room->space, c, i, k - c->first[i]) &&
                 cuts(outline, c->flat[a], c->flat[b]))
                 reach[a] = reach[b] = 0.0;
         }
     while (shorten(c, reach))
         ;
     for (int32_t i = 0; i < c->face_count; ++i)
-        l->space.face_slot[c->faces[i]] = -1;
+        slots[c->faces[i]] = -1;
     for (int32_t v = 0; v < c->vert_count; ++v)
         c->rim[v] = (float)(reach[v] / RIM);
     return OSDTEX_OK;

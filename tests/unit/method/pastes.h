@@ -18,6 +18,7 @@ typedef struct paste_bench
     otx_map_request request;
     otx_job job;
     otx_lapped l;
+    otx_lapped_space space;
 } paste_bench;
 
 /* With `texels` to a scene unit. */
@@ -46,12 +47,12 @@ paste_bench_create(otx_run *run, otx_surface surface, double texels)
         .surface = &b->surface,
         .leaf = leaf,
         .exemplar = b->exemplar,
-        .texels = texels,
-        .space = {
-            OTX_NEW(run->arena, int32_t, leaf->face_count),
-            OTX_NEW(run->arena, int32_t, leaf->vert_count)}};
-    memset(l->space.face_slot, -1, (size_t)leaf->face_count * 4);
-    memset(l->space.vert_slot, -1, (size_t)leaf->vert_count * 4);
+        .texels = texels};
+    b->space = (otx_lapped_space){
+        OTX_NEW(run->arena, int32_t, leaf->face_count),
+        OTX_NEW(run->arena, int32_t, leaf->vert_count)};
+    memset(b->space.face_slot, -1, (size_t)leaf->face_count * 4);
+    memset(b->space.vert_slot, -1, (size_t)leaf->vert_count * 4);
     assert_int_equal(
         otx_connection_build(
             run, &b->surface, b->surface.level_count - 1, &l->connection),
@@ -88,14 +89,39 @@ paste_seed(const paste_bench *b, int32_t face)
         {1.0, 0.0}};
 }
 
+static inline otx_lapped_room
+paste_room(paste_bench *b)
+{
+    return (otx_lapped_room){&b->space, b->run->arena, NULL};
+}
+
+/* Where a sample of a chart's face lies in its plane. */
+static inline otx_vec2
+paste_place(
+    const otx_lapped *l, const otx_lapped_chart *chart, int32_t slot,
+    const otx_sample_place *sample)
+{
+    const int32_t shift =
+        chart->first[slot] - l->leaf->face_first[chart->faces[slot]];
+    otx_vec2 at = {0, 0};
+
+    for (int k = 0; k < 3; ++k)
+        at = otx_vec2_add(
+            at, otx_vec2_scale(
+                    sample->at[k],
+                    chart->flat[chart->corners[sample->corners[k] + shift]]));
+    return at;
+}
+
 static inline otx_lapped_chart
-paste_unfold(const paste_bench *b, int32_t face, const otx_radial *outline)
+paste_unfold(paste_bench *b, int32_t face, const otx_radial *outline)
 {
     const otx_lapped_seed seed = paste_seed(b, face);
+    const otx_lapped_room room = paste_room(b);
     otx_lapped_chart chart;
 
     assert_int_equal(
-        otx_lapped_unfold(&b->l, &seed, outline, b->run->arena, &chart),
+        otx_lapped_unfold(&b->l, &room, &seed, (double)outline->most, &chart),
         OSDTEX_OK);
     return chart;
 }
@@ -105,9 +131,9 @@ static inline void
 paste_check_space(const paste_bench *b)
 {
     for (int32_t f = 0; f < b->l.leaf->face_count; ++f)
-        assert_int_equal(b->l.space.face_slot[f], -1);
+        assert_int_equal(b->space.face_slot[f], -1);
     for (int32_t v = 0; v < b->l.leaf->vert_count; ++v)
-        assert_int_equal(b->l.space.vert_slot[v], -1);
+        assert_int_equal(b->space.vert_slot[v], -1);
 }
 
 /* Corners name the vertices of their leaves, and no leaf comes twice. */

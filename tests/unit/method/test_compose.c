@@ -14,6 +14,7 @@ static void
 lay(paste_bench *b, int32_t face, double radius, otx_vec2 centre)
 {
     const otx_radial outline = paste_circle(radius, 4.0);
+    const otx_lapped_room room = paste_room(b);
     otx_lapped_paste *p = &b->l.pastes[b->l.paste_count++];
 
     p->chart = paste_unfold(b, face, &outline);
@@ -21,7 +22,7 @@ lay(paste_bench *b, int32_t face, double radius, otx_vec2 centre)
     p->cut = OTX_NEW(b->run->arena, otx_radial, 1);
     *p->cut = outline;
     assert_int_equal(
-        otx_lapped_rim(&b->l, p->cut, b->run->arena, &p->chart), OSDTEX_OK);
+        otx_lapped_rim(&b->l, &room, p->cut, &p->chart), OSDTEX_OK);
 }
 
 /* One piece under all, and three that lie over parts of it. */
@@ -74,10 +75,10 @@ shares(
                 (double)c
                     ->rim[c->corners
                               [c->first[slot] + sample->corners[k] - 4 * face]];
-        weight = through * rim *
-                 otx_radial_alpha(
-                     b->l.pastes[p].cut,
-                     otx_lapped_place(&b->l, c, slot, sample), 0.0);
+        weight =
+            through * rim *
+            otx_radial_alpha(
+                b->l.pastes[p].cut, paste_place(&b->l, c, slot, sample), 0.0);
         by[p] = weight;
         through -= weight;
     }
@@ -114,7 +115,7 @@ shown(
                 ++slot;
             if (slot == paste->chart.face_count ||
                 otx_vec2_length(otx_vec2_sub(
-                    at, otx_lapped_place(&b->l, &paste->chart, slot, sample))) >
+                    at, paste_place(&b->l, &paste->chart, slot, sample))) >
                     1e-3)
                 continue;
             if (term.fragment && term.fragment->outline)

@@ -24,6 +24,7 @@ grow(
     t->growth = (otx_growth){
         .l = &t->bench->l,
         .seed = &t->seed,
+        .space = &t->bench->space,
         .arena = run->arena,
         .chart = &t->chart,
         .hull = hull};
@@ -76,7 +77,7 @@ what_is_flat_lies_as_it_is(void **state)
                                         otx_lapped_point(l, &t->seed.place))) <
                                hull;
         if (near)
-            assert_true(l->space.face_slot[f] >= 0);
+            assert_true(t->bench->space.face_slot[f] >= 0);
     }
     /* And not much more. */
     for (int32_t v = 0; v < t->chart.vert_count; ++v)
@@ -158,8 +159,8 @@ slits_are_sewn_until_none_are_left(void **state)
         assert_true(found > 0.9 / ratio && found < 1.1 * ratio);
     }
     for (int32_t v = 0; v < l->leaf->vert_count; ++v)
-        if (l->space.vert_slot[v] >= 0)
-            assert_int_equal(t->chart.verts[l->space.vert_slot[v]], v);
+        if (t->bench->space.vert_slot[v] >= 0)
+            assert_int_equal(t->chart.verts[t->bench->space.vert_slot[v]], v);
     assert_int_equal(otx_growth_sew(&t->growth, ratio, &again), OSDTEX_OK);
     assert_int_equal(again, 0);
 }
@@ -175,7 +176,7 @@ holes_are_left_out(void **state)
     t = grow(*state, surface, TEXELS, 5 * 10 + 5, 120.0);
     sew(t);
     assert_int_equal(t->chart.face_count, 98);
-    assert_int_equal(t->bench->l.space.face_slot[5 * 10 + 6], -1);
+    assert_int_equal(t->bench->space.face_slot[5 * 10 + 6], -1);
 }
 
 int

@@ -1,57 +1,12 @@
 /* test_lapped.c -- pastes: nothing opens, nothing turns over, few layers. */
-#include "grid.h"
-#include "unit/cluster/sheets.h"
-
-#include "method/method.h"
-
-typedef struct trial
-{
-    otx_run *run;
-    otx_surface surface;
-    otx_figures figures;
-    otx_mapping mapping;
-} trial;
-
-static trial *
-paste(const char *cage, int32_t level, double exemplars, const char *mode)
-{
-    otx_run *run = test_run_create();
-    trial *t = OTX_ZNEW(run->arena, trial, 1);
-    const otx_method *method = otx_method_find("lapped");
-    void *settings = otx_arena_zalloc(run->arena, 1, method->settings_bytes);
-    otx_exemplar *e = test_exemplar_create(run->arena, 64, 64, true, 3);
-    otx_map_request request = {.first_face = -1};
-    const otx_job job = {
-        .run = run,
-        .surface = &t->surface,
-        .exemplars = e,
-        .exemplar_count = 1,
-        .request = &request,
-        .settings = settings,
-        .figures = &t->figures,
-    };
-    const otx_analysis isotropic = {.kind = OTX_ANALYSIS_ISOTROPIC};
-
-    t->run = run;
-    t->surface = sheet_from_file(run, cage, level);
-    request.scale = sqrt(t->surface.area / exemplars);
-    request.analysis = &isotropic;
-    otx_option_defaults(method->options, method->option_count, settings);
-    assert_int_equal(
-        otx_option_set(
-            run, method->options, method->option_count, settings, "mode", mode),
-        OSDTEX_OK);
-    if (otx_method_map(method, &job, &t->mapping) != OSDTEX_OK)
-        fail_msg("%s", test_last_message(run));
-    return t;
-}
+#include "unit/method/trial.h"
 
 /* Of every face that has lookups the lowest is all there is at the least, so
  * that no place is left open, however it is sampled. */
 static void
 the_lowest_is_opaque(void **state)
 {
-    trial *t = paste("models/cages/creature.obj", 2, 12.0, "auto");
+    trial *t = paste("models/cages/creature.obj", 2, 12.0, "auto", 2);
     const otx_lookups *l = t->mapping.lookups;
     const otx_level *leaf = otx_surface_leaf(&t->surface);
     int32_t layered = 0;
@@ -82,7 +37,7 @@ layers_are_few_and_lie_along_the_field(void **state)
     (void)state;
     for (int i = 0; i < 2; ++i)
     {
-        trial *t = paste("models/cages/torus.obj", 3, 100.0, modes[i]);
+        trial *t = paste("models/cages/torus.obj", 3, 100.0, modes[i], 2);
         const double seen = otx_figures_value(&t->figures, "lapped.visible");
 
         assert_true(seen >= 1.0 && seen <= 3.2);

@@ -45,7 +45,7 @@ cover(
         for (int32_t k = 0; k < otx_samples_count(s, face); ++k)
         {
             const otx_sample_place place = otx_samples_at(s, face, k);
-            const otx_vec2 at = otx_lapped_place(&b->l, &p->chart, i, &place);
+            const otx_vec2 at = paste_place(&b->l, &p->chart, i, &place);
             const int32_t x =
                 otx_image_wrap((int32_t)floor(p->centre.x + at.x), 64);
             const int32_t y =
@@ -54,7 +54,7 @@ cover(
 
             memcpy(lab, otx_image_at(&b->exemplar->lab, x, y), 12);
             lab[0] += lightness(at);
-            otx_samples_set(s, face, k);
+            otx_samples_set(s, face, s->first[face] + k);
         }
     }
 }
@@ -64,7 +64,8 @@ cut(paste_bench *b, otx_lapped_paste *p)
 {
     const otx_radial outline = paste_circle(RADIUS, 2.0);
 
-    assert_int_equal(otx_lapped_cut(&b->l, &outline, p), OSDTEX_OK);
+    assert_int_equal(
+        otx_lapped_cut(&b->l, b->run->arena, &outline, p), OSDTEX_OK);
     assert_float_equal(p->cut->feather, outline.feather, 0.0);
     for (int32_t a = 0; a < OTX_RADIAL_ANGLES; ++a)
     {
@@ -141,7 +142,7 @@ what_is_open_is_not_left_open(void **state)
             const otx_sample_place place =
                 otx_samples_at(s, p.chart.faces[i], k);
 
-            if (otx_lapped_place(&b->l, &p.chart, i, &place).x > 0.0)
+            if (paste_place(&b->l, &p.chart, i, &place).x > 0.0)
                 s->covered[s->first[p.chart.faces[i]] + k] = 0;
         }
     cut(b, &p);
@@ -160,14 +161,14 @@ marks_are_those_of_the_cut(void **state)
     int64_t left = 0;
 
     *p.cut = paste_circle(20.0, 2.0);
-    otx_lapped_mark(&b->l, &p);
+    s->left -= otx_lapped_mark(&b->l, &p);
     for (int32_t i = 0; i < p.chart.face_count; ++i)
         for (int32_t k = 0; k < otx_samples_count(s, p.chart.faces[i]); ++k)
         {
             const int64_t sample = s->first[p.chart.faces[i]] + k;
             const otx_sample_place place =
                 otx_samples_at(s, p.chart.faces[i], k);
-            const otx_vec2 at = otx_lapped_place(&b->l, &p.chart, i, &place);
+            const otx_vec2 at = paste_place(&b->l, &p.chart, i, &place);
             const double away = otx_vec2_length(at);
 
             if (away < 17.9)

@@ -38,7 +38,7 @@ seed_of(const paste_bench *b, const otx_lapped_chart *c)
 {
     const otx_lapped_seed seed = paste_seed(b, c->faces[0]);
 
-    return otx_lapped_place(&b->l, c, 0, &seed.place);
+    return paste_place(&b->l, c, 0, &seed.place);
 }
 
 static void
@@ -120,14 +120,14 @@ a_piece_fades_where_its_chart_is_cut_off(void **state)
     otx_surface surface = sheet_from_file(*state, "models/cages/torus.obj", 3);
     paste_bench *b =
         paste_bench_create(*state, surface, 110.0 / sqrt(surface.area));
+    const otx_lapped_room room = paste_room(b);
     const otx_radial small = paste_circle(20.0, 2.0);
     const otx_radial large = paste_circle(60.0, 2.0);
     otx_lapped_chart c = paste_unfold(b, 100, &small);
     int32_t cut = 0, whole = 0;
 
     /* The chart was grown for a smaller piece than is laid on it. */
-    assert_int_equal(
-        otx_lapped_rim(&b->l, &large, b->run->arena, &c), OSDTEX_OK);
+    assert_int_equal(otx_lapped_rim(&b->l, &room, &large, &c), OSDTEX_OK);
     paste_check_space(b);
     for (int32_t i = 0; i < c.face_count; ++i)
         for (int32_t k = c.first[i]; k < c.first[i + 1]; ++k)
@@ -146,8 +146,7 @@ a_piece_fades_where_its_chart_is_cut_off(void **state)
     assert_true(cut > 0 && whole > 0);
     /* Under its own outline nothing is cut off. */
     assert_int_equal(
-        otx_lapped_rim(
-            &b->l, &(otx_radial){.feather = 1.0f}, b->run->arena, &c),
+        otx_lapped_rim(&b->l, &room, &(otx_radial){.feather = 1.0f}, &c),
         OSDTEX_OK);
     for (int32_t v = 0; v < c.vert_count; ++v)
         assert_float_equal(c.rim[v], 1.0, 0.0);
@@ -159,12 +158,12 @@ the_end_of_the_surface_is_no_rim(void **state)
 {
     paste_bench *b =
         paste_bench_create(*state, sheet_create(*state, 8, 8, SHEET_FLAT), 4.0);
+    const otx_lapped_room room = paste_room(b);
     const otx_radial outline = paste_circle(60.0, 2.0);
     otx_lapped_chart c = paste_unfold(b, 0, &outline);
 
     assert_int_equal(c.face_count, 64);
-    assert_int_equal(
-        otx_lapped_rim(&b->l, &outline, b->run->arena, &c), OSDTEX_OK);
+    assert_int_equal(otx_lapped_rim(&b->l, &room, &outline, &c), OSDTEX_OK);
     for (int32_t v = 0; v < c.vert_count; ++v)
         assert_float_equal(c.rim[v], 1.0, 0.0);
 }
