@@ -5,6 +5,11 @@
 
 #include <string.h>
 
+enum
+{
+    SPARSE_LEVELS = 3 /* where neighbours are much alike */
+};
+
 static otx_status
 allocate(otx_run *run, const otx_synth_chart *chart, otx_canvas *c)
 {
@@ -277,6 +282,7 @@ sized(
         .radius = radius,
         .wrap_x = chart->wrap_x,
         .wrap_y = chart->wrap_y,
+        .sparse = level < SPARSE_LEVELS,
         .quads = pattern->quads,
         .voted = chart->guide ? 1 : pattern->quads};
 
@@ -310,7 +316,7 @@ otx_canvas_build(
     for (int32_t l = 0; l < level_count; ++l)
     {
         OTX_TRY(spread_shares(run, &out->levels[l]));
-        otx_canvas_weigh(&out->levels[l], 1.0f);
+        otx_canvas_use_windows(&out->levels[l]);
     }
     return OSDTEX_OK;
 }
@@ -455,9 +461,16 @@ otx_canvas_weigh(otx_canvas *c, float hole)
         }
     otx_canvas_wrap(c);
     sum_windows(c, c->weights, c->masses);
-    use_windows(c);
     otx_canvas_stir(c, true);
     otx_canvas_wrap(c);
+}
+
+void
+otx_canvas_use_windows(otx_canvas *c)
+{
+    otx_canvas_wrap(c);
+    use_windows(c);
+    otx_canvas_weigh(c, 1.0f);
 }
 
 static void

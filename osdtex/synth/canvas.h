@@ -28,6 +28,7 @@ typedef struct otx_canvas
     int32_t width, height, stride;
     int32_t level, radius;
     bool wrap_x, wrap_y;
+    bool sparse;          /* whole windows are compared by every other texel */
     int32_t quads, voted; /* of a texel, and how many of them are voted */
     float step_x, step_y; /* texels of level 0 to one of this */
     uint8_t *kinds;
@@ -84,9 +85,13 @@ otx_status otx_canvas_build(
  * parent leads; FROZEN ones keep what they are. */
 void otx_canvas_descend(const otx_canvas *from, otx_canvas *to);
 
-/* Says what windows are for and how much is in them; `hole` is what FREE texels
- * weigh, 1 but for a start. Of a collar only what windows reach is used. */
+/* Says how much is in windows; `hole` is what FREE texels weigh, 1 but for a
+ * start. All are stirred. */
 void otx_canvas_weigh(otx_canvas *canvas, float hole);
+
+/* Says from kinds what windows are for, and weighs them. Of a collar only what
+ * windows reach is used. */
+void otx_canvas_use_windows(otx_canvas *canvas);
 
 /* Marks all windows that a changed texel is in as stirred, or just all. */
 void otx_canvas_stir(otx_canvas *canvas, bool all);

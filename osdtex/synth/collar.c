@@ -138,7 +138,7 @@ link_chart(void *context, int64_t index, otx_worker *worker)
                 c->kinds[at] = OTX_SYNTH_VOID;
         }
     if (out->links)
-        otx_canvas_weigh(c, 1.0f);
+        otx_canvas_use_windows(c);
     return OSDTEX_OK;
 }
 

@@ -7,20 +7,31 @@
 #include "synth/vote.h"
 
 /* Rounds of search and vote, by level from the finest. */
-static const int32_t ROUNDS[] = {1, 2, 4, 16, 16, 16};
+static const int32_t ROUNDS[] = {1, 2, 4, 8, 16, 16};
 
 enum
 {
     ROUNDS_COARSEST = 24,
+    ROUNDS_CHOSEN = 8, /* there, of a start that has had its own */
     PASSES_FIRST = 4,
-    PASSES = 2
+    PASSES = 2,
+    FINE = 3 /* levels where little is found that the one above did not have */
 };
 
 static int32_t
 rounds_at(const otx_maker *m, int32_t level)
 {
-    return level > 0 && level == m->level_count - 1 ? ROUNDS_COARSEST
-                                                    : ROUNDS[level];
+    if (level == 0 || level < m->level_count - 1)
+        return ROUNDS[level];
+    return m->options->starts > 1 ? ROUNDS_CHOSEN : ROUNDS_COARSEST;
+}
+
+/* Of the first round. */
+static int32_t
+passes_at(const otx_maker *m, int32_t level)
+{
+    return level == 0 || (level < FINE && m->options->given) ? PASSES
+                                                             : PASSES_FIRST;
 }
 
 /* Of the first random step, in texels of the exemplar. Propagation does at the
@@ -33,7 +44,11 @@ reach_at(const otx_maker *m, int32_t level)
 
     if (level == m->level_count - 1)
         return whole;
-    return level == 0 ? 0.0 : level == 1 ? 24.0 : 64.0;
+    if (level == 0)
+        return 0.0;
+    if (m->options->given)
+        return level == 1 ? 6.0 : level == 2 ? 24.0 : 64.0;
+    return level == 1 ? 24.0 : 64.0;
 }
 
 /* Falls to 0 over 7 tenths of the coarsest level's rounds. */
@@ -116,7 +131,7 @@ rounds(otx_maker *m, int32_t level, int32_t count)
     for (int32_t round = 0; round < count; ++round)
     {
         OTX_TRY(otx_maker_search(
-            m, level, round, round == 0 && level > 0 ? PASSES_FIRST : PASSES));
+            m, level, round, round == 0 ? passes_at(m, level) : PASSES));
         /* Matches are what is handed out. */
         if (level > 0 || round + 1 < count)
             OTX_TRY(otx_maker_vote(m, level, false));

@@ -17,30 +17,76 @@ otx_window_is_inside(const otx_canvas *c, otx_window_frame f)
            (p->wrap_y || (f.y >= ey && f.y <= (float)level->height - ey));
 }
 
-/* Of one row of the window, whose first texel is at (x, y) in the pattern. */
+/* What a texel is off by, squared, channel by channel. */
 static inline otx_quad
-row_cost(
+error_of(
     const otx_canvas *c, const otx_pattern_level *level, int32_t quads,
-    ptrdiff_t at, float x, float y, otx_window_frame f)
+    ptrdiff_t at, float x, float y)
 {
-    const int32_t count = 2 * c->radius + 1;
     const otx_quad *color = c->colors + at * quads;
-    const float *weight = c->weights + at;
-    otx_quad sum = {0.0f, 0.0f, 0.0f, 0.0f};
+    otx_quad value[2], sum = {0.0f, 0.0f, 0.0f, 0.0f};
 
-    for (int32_t i = 0; i < count; ++i, x += f.xx, y += f.yx)
+    otx_pattern_at(level, quads, x, y, value);
+    for (int32_t q = 0; q < quads; ++q)
     {
-        otx_quad value[2];
+        const otx_quad d = value[q] - color[q];
 
-        otx_pattern_at(level, quads, x, y, value);
-        for (int32_t q = 0; q < quads; ++q)
-        {
-            const otx_quad d = value[q] - *color++;
-
-            sum += d * d * weight[i];
-        }
+        sum += d * d;
     }
     return sum;
+}
+
+/* Of a window with texels that weigh less than others. */
+static inline float
+cost_of_some(
+    const otx_canvas *c, int32_t quads, ptrdiff_t at, otx_window_frame f,
+    float limit)
+{
+    const otx_pattern_level *level = &c->pattern->levels[c->level];
+    const int32_t r = c->radius;
+    const float mass = c->masses[at], most = limit * mass;
+    otx_quad sum = {0.0f, 0.0f, 0.0f, 0.0f};
+
+    if (!(mass > 0.0f))
+        return 0.0f;
+    for (int32_t j = -r; j <= r && !(otx_quad_sum(sum) > most); ++j)
+    {
+        const ptrdiff_t row = at + (ptrdiff_t)j * c->stride;
+        float x = f.x + (float)j * f.xy - (float)r * f.xx;
+        float y = f.y + (float)j * f.yy - (float)r * f.yx;
+
+        for (int32_t i = -r; i <= r; ++i, x += f.xx, y += f.yx)
+            sum +=
+                error_of(c, level, quads, row + i, x, y) * c->weights[row + i];
+    }
+    return otx_quad_sum(sum) / mass;
+}
+
+/* Of a window that is whole; `step` 2: of every other texel, as the black
+ * fields of a board are. */
+static inline float
+cost_of_whole(
+    const otx_canvas *c, int32_t quads, int32_t step, ptrdiff_t at,
+    otx_window_frame f, float limit)
+{
+    const otx_pattern_level *level = &c->pattern->levels[c->level];
+    const int32_t r = c->radius, side = 2 * r + 1;
+    const float count = (float)((side * side + step - 1) / step);
+    const float most = limit * count;
+    const float xx = (float)step * f.xx, yx = (float)step * f.yx;
+    otx_quad sum = {0.0f, 0.0f, 0.0f, 0.0f};
+
+    for (int32_t j = -r; j <= r && !(otx_quad_sum(sum) > most); ++j)
+    {
+        const ptrdiff_t row = at + (ptrdiff_t)j * c->stride;
+        const int32_t first = step > 1 ? -r + ((j + r) & 1) : -r;
+        float x = f.x + (float)j * f.xy + (float)first * f.xx;
+        float y = f.y + (float)j * f.yy + (float)first * f.yx;
+
+        for (int32_t i = first; i <= r; i += step, x += xx, y += yx)
+            sum += error_of(c, level, quads, row + i, x, y);
+    }
+    return otx_quad_sum(sum) / count;
 }
 
 static inline float
@@ -48,31 +94,18 @@ cost_of(
     const otx_canvas *c, int32_t quads, ptrdiff_t at, otx_window_frame f,
     float limit)
 {
-    const otx_pattern_level *level = &c->pattern->levels[c->level];
-    const int32_t r = c->radius;
-    const float most = limit * c->masses[at];
-    otx_quad sum = {0.0f, 0.0f, 0.0f, 0.0f};
-    float x = f.x - (float)r * (f.xx + f.xy);
-    float y = f.y - (float)r * (f.yx + f.yy);
+    const float side = (float)(2 * c->radius + 1);
 
-    if (!(c->masses[at] > 0.0f))
-        return 0.0f;
-    at -= (ptrdiff_t)r * c->stride + r;
-    for (int32_t j = -r; j <= r; ++j, x += f.xy, y += f.yy, at += c->stride)
-    {
-        sum += row_cost(c, level, quads, at, x, y, f);
-        if (otx_quad_sum(sum) > most)
-            break;
-    }
-    return otx_quad_sum(sum);
+    if (c->masses[at] < side * side)
+        return cost_of_some(c, quads, at, f, limit);
+    return c->sparse ? cost_of_whole(c, quads, 2, at, f, limit)
+                     : cost_of_whole(c, quads, 1, at, f, limit);
 }
 
 float
 otx_window_cost(
     const otx_canvas *c, ptrdiff_t at, otx_window_frame f, float limit)
 {
-    const float sum = c->quads == 1 ? cost_of(c, 1, at, f, limit)
-                                    : cost_of(c, 2, at, f, limit);
-
-    return c->masses[at] > 0.0f ? sum / c->masses[at] : 0.0f;
+    return c->quads == 1 ? cost_of(c, 1, at, f, limit)
+                         : cost_of(c, 2, at, f, limit);
 }

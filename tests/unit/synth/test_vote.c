@@ -84,7 +84,7 @@ slow(const otx_canvas *c, int32_t x, int32_t y, double out[4])
             const double vote = exp(-(i * i + j * j) / 8.0) * c->trust[at];
             otx_quad shown;
 
-            if (c->uses[at] == OTX_CANVAS_NONE)
+            if (c->uses[at] == OTX_CANVAS_NONE || ((i + j) & 1))
                 continue;
             otx_pattern_at(
                 &c->pattern->levels[0], 1, m.x - m.c * i + m.s * j,

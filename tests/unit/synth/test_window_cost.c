@@ -20,12 +20,15 @@ paint(otx_image *image, uint32_t what)
             (float)(50.0 * otx_random_unit(3, what, (uint64_t)i));
 }
 
-/* Of the window at (x, y), the way that the note says it. */
+/* Of the window at (x, y), the way that the note says it; of a whole one where
+ * that is sparse, of every other texel. */
 static double
 slow(
     const otx_image *lab, const otx_image *guide, const otx_canvas *c,
     int32_t x, int32_t y, otx_synth_match m)
 {
+    const bool sparse = c->sparse && c->masses[otx_canvas_index(c, x, y)] ==
+                                         (2 * RADIUS + 1) * (2 * RADIUS + 1);
     double sum = 0.0, mass = 0.0;
 
     for (int32_t j = -RADIUS; j <= RADIUS; ++j)
@@ -37,6 +40,8 @@ slow(
                 m.x + m.c * i - m.s * j, m.y + m.s * i + m.c * j};
             float a[3], b[2];
 
+            if (sparse && ((i + j) & 1))
+                continue;
             otx_view_value(otx_view_of(lab, true, true), to, a);
             otx_view_value(otx_view_of(guide, true, true), to, b);
             for (int k = 0; k < 3; ++k)
@@ -48,10 +53,10 @@ slow(
     return sum / mass;
 }
 
+/* voids: of five texels. */
 static void
-distances_are_those_of_the_definition(void **state)
+compare(otx_run *run, uint64_t voids, bool sparse)
 {
-    otx_run *run = *state;
     otx_image lab, guide;
     otx_pattern pattern;
     otx_canvas_stack stack;
@@ -75,7 +80,7 @@ distances_are_those_of_the_definition(void **state)
     {
         const uint64_t bits = otx_random_bits(5, 1, (uint64_t)i);
 
-        kinds[i] = bits % 5 ? OTX_SYNTH_FREE : OTX_SYNTH_VOID;
+        kinds[i] = bits % 5 < voids ? OTX_SYNTH_VOID : OTX_SYNTH_FREE;
         start[i] = (otx_synth_match){
             (float)(bits >> 8 & 63), (float)(bits >> 16 & 63), 1.0f, 0.0f};
     }
@@ -89,6 +94,7 @@ distances_are_those_of_the_definition(void **state)
                 .matches = start},
             &options, 1, &stack),
         OSDTEX_OK);
+    stack.levels[0].sparse = sparse;
     for (int32_t k = 0; k < 200; ++k)
     {
         const otx_canvas *c = &stack.levels[0];
@@ -112,12 +118,28 @@ distances_are_those_of_the_definition(void **state)
     }
 }
 
+static void
+distances_are_those_of_the_definition(void **state)
+{
+    compare(*state, 1, true);
+    compare(*state, 0, false);
+}
+
+static void
+whole_windows_are_compared_by_half(void **state)
+{
+    compare(*state, 0, true);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(
             distances_are_those_of_the_definition, test_run_setup,
+            test_run_teardown),
+        cmocka_unit_test_setup_teardown(
+            whole_windows_are_compared_by_half, test_run_setup,
             test_run_teardown),
     };
 
