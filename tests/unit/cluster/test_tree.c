@@ -1,55 +1,6 @@
 /* test_tree.c -- the stored hierarchy: every level shares the surface out, from
  * the whole through regions and single faces to the leaves. */
-#include "unit/cluster/sheets.h"
-
-#include "cluster/tree.h"
-#include "cluster/tree_check.h"
-
-typedef struct tree_bench
-{
-    otx_run *run;
-    otx_surface surface;
-    otx_dual dual;
-    otx_cluster_tree tree;
-} tree_bench;
-
-static void
-assert_sound(const tree_bench *b)
-{
-    const char *wrong = otx_cluster_tree_check(&b->tree, b->run->scratch);
-
-    if (wrong)
-        fail_msg("%s", wrong);
-}
-
-/*   count  regions that are asked for; 0: each face by itself */
-static tree_bench *
-plant(otx_surface surface, otx_run *run, int32_t level, double count)
-{
-    tree_bench *b = OTX_ZNEW(run->arena, tree_bench, 1);
-    otx_cluster_part part = {
-        sheet_all(run, &surface, level),
-        count > 0.0 ? surface.area / count : 0};
-
-    b->run = run;
-    b->surface = surface;
-    b->dual = sheet_dual(run, &b->surface, level);
-    assert_int_equal(
-        otx_cluster_tree_create(
-            run, &b->surface, &b->dual, 1.0, &part, 1, &b->tree),
-        OSDTEX_OK);
-    assert_sound(b);
-    return b;
-}
-
-static tree_bench *
-plant_cage(otx_run *run, const char *name, int32_t level, double count)
-{
-    char path[128];
-
-    snprintf(path, sizeof path, "models/cages/%s.obj", name);
-    return plant(sheet_from_file(run, path, 2), run, level, count);
-}
+#include "unit/cluster/trees.h"
 
 /* Looks into every region, down to single faces. */
 static void
@@ -67,7 +18,7 @@ open_all(tree_bench *b)
             OSDTEX_OK);
         assert_true(children.count > (i == 0 ? 0 : 1));
     }
-    assert_sound(b);
+    tree_assert_sound(b);
 }
 
 static void
@@ -82,7 +33,7 @@ every_level_shares_the_surface_out(void **state)
         for (int32_t level = 0; level < 2; ++level)
         {
             otx_run *run = test_run_create();
-            tree_bench *b = plant_cage(run, cages[i], level, 9.0);
+            tree_bench *b = tree_plant_cage(run, cages[i], level, 9.0);
             int32_t single = 0;
 
             open_all(b);
@@ -98,7 +49,8 @@ static void
 sizes_are_uniform_within_a_level(void **state)
 {
     otx_run *run = test_run_create();
-    tree_bench *b = plant(sheet_create(run, 48, 48, SHEET_FLAT), run, 0, 9.0);
+    tree_bench *b =
+        tree_plant(sheet_create(run, 48, 48, SHEET_FLAT), run, 0, 9.0);
 
     (void)state;
     open_all(b);
@@ -120,7 +72,7 @@ static void
 patches_follow_down_to_the_leaves(void **state)
 {
     otx_run *run = test_run_create();
-    tree_bench *b = plant_cage(run, "jack", 0, 0.0);
+    tree_bench *b = tree_plant_cage(run, "jack", 0, 0.0);
     otx_cluster c = otx_cluster_tree_node(&b->tree, 1);
     otx_cluster_list children;
 
@@ -144,7 +96,7 @@ static void
 children_are_stored(void **state)
 {
     otx_run *run = test_run_create();
-    tree_bench *b = plant_cage(run, "creature", 1, 6.0);
+    tree_bench *b = tree_plant_cage(run, "creature", 1, 6.0);
     const otx_cluster c = otx_cluster_tree_node(&b->tree, 1);
     otx_cluster_list first, again;
     int32_t count;
@@ -194,7 +146,7 @@ static void
 what_is_spoilt_is_found(void **state)
 {
     otx_run *run = test_run_create();
-    tree_bench *b = plant_cage(run, "creature", 0, 6.0);
+    tree_bench *b = tree_plant_cage(run, "creature", 0, 6.0);
     otx_cluster_node *n = &b->tree.nodes[1];
     int32_t face = b->tree.faces[n->first];
 
