@@ -6,13 +6,13 @@
 #include "api/method_settings.h"
 #include "api/saved_about.h"
 #include "api/saved_field.h"
+#include "api/saved_lookups.h"
 #include "file/atomic_file.h"
 #include "file/tensors.h"
 #include "mapping/mapping_check.h"
 
 #include <assert.h>
 #include <limits.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -24,81 +24,6 @@ static const char STAGE[] = "mapping";
 static_assert(sizeof(otx_vec2) == 16 && sizeof(otx_vec3) == 24, "packed");
 
 /* ---- saving ---- */
-
-/* The items of lookups, which a file has as three arrays. */
-static otx_status
-split_lookups(
-    otx_run *run, const otx_lookups *l, int64_t count, float **values,
-    int32_t **fragments)
-{
-    *values = OTX_NEW(run->scratch, float, 3 * count);
-    *fragments = OTX_NEW(run->scratch, int32_t, count);
-    OTX_TRY(otx_run_ok(run));
-    for (int64_t i = 0; i < count; ++i)
-    {
-        (*values)[3 * i] = l->items[i].uv[0];
-        (*values)[3 * i + 1] = l->items[i].uv[1];
-        (*values)[3 * i + 2] = l->items[i].weight;
-        (*fragments)[i] = l->items[i].fragment;
-    }
-    return OSDTEX_OK;
-}
-
-enum
-{
-    /* Of a fragment's outline: frame, feather, radii; all 0: opaque. */
-    OUTLINE_FLOATS = 5 + OTX_RADIAL_ANGLES
-};
-
-/* Outlines that cut fragments out, where there are any. */
-static otx_status
-list_outlines(otx_run *run, const otx_lookups *l, otx_tensors *out)
-{
-    float *list = OTX_ZNEW(
-        run->scratch, float, (int64_t)OUTLINE_FLOATS * l->fragment_count);
-    bool any = false;
-
-    if (!list)
-        return otx_fail_memory(run, STAGE);
-    for (int32_t i = 0; i < l->fragment_count; ++i)
-    {
-        const otx_fragment *f = &l->fragments[i];
-        float *row = list + (size_t)OUTLINE_FLOATS * (size_t)i;
-
-        if (!f->outline)
-            continue;
-        any = true;
-        memcpy(row, f->frame, sizeof f->frame);
-        row[4] = f->outline->feather;
-        memcpy(row + 5, f->outline->radius, sizeof f->outline->radius);
-    }
-    if (any)
-        otx_tensors_add(
-            out, "fragment_outlines", OTX_TENSOR_F32, l->fragment_count,
-            OUTLINE_FLOATS, list);
-    return OSDTEX_OK;
-}
-
-/* Exemplar and patch of each. */
-static otx_status
-list_fragments(otx_run *run, const otx_lookups *l, otx_tensors *out)
-{
-    int32_t *list = OTX_NEW(run->scratch, int32_t, 2 * l->fragment_count);
-
-    OTX_TRY(otx_run_ok(run));
-    for (int32_t i = 0; i < l->fragment_count; ++i)
-    {
-        if (l->fragments[i].mask)
-            return otx_fail(
-                run, OSDTEX_ERROR_SUPPORT, STAGE, OTX_NOWHERE,
-                "a mapping whose fragments have masks cannot be saved");
-        list[2 * i] = l->fragments[i].exemplar;
-        list[2 * i + 1] = l->fragments[i].patch;
-    }
-    otx_tensors_add(
-        out, "fragments", OTX_TENSOR_I32, l->fragment_count, 2, list);
-    return OSDTEX_OK;
-}
 
 /* Which texel of its file each texel of an exemplar is, where it was cut. */
 static void
@@ -117,19 +42,14 @@ gather_cuts(const osdtex_mapping *mapping, otx_tensors *out)
     }
 }
 
-/* Arrays in the order of their types' sizes, so that all are aligned. */
-static otx_status
-gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
+/* Arrays of eight bytes an element. */
+static void
+gather_wide(const otx_mapping *m, otx_tensors *out)
 {
-    const otx_mapping *m = &mapping->mapping;
     const otx_level *leaf = otx_surface_leaf(m->surface);
-    const otx_cage *cage = m->surface->cage;
-    const otx_lookups *l = m->lookups;
-    const int64_t count = l ? l->first[leaf->face_count] : 0;
-    int32_t *fragments = NULL;
-    float *values = NULL;
 
-    otx_tensors_add(out, "cage_origin", OTX_TENSOR_F64, 3, 0, cage->origin);
+    otx_tensors_add(
+        out, "cage_origin", OTX_TENSOR_F64, 3, 0, m->surface->cage->origin);
     if (m->guide)
         otx_tensors_add(
             out, "guide", OTX_TENSOR_F64, leaf->face_count, 3,
@@ -143,18 +63,22 @@ gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
             out, "defects", OTX_TENSOR_F64, m->lattice->defect_count, 3,
             m->lattice->defects);
     }
-    if (l)
-    {
-        OTX_TRY(split_lookups(run, l, count, &values, &fragments));
-        otx_tensors_add(
-            out, "lookup_first", OTX_TENSOR_I64, (int64_t)leaf->face_count + 1,
-            0, l->first);
-    }
+    otx_saved_lookups_add_offsets(m, out);
+}
+
+/* Arrays in the order of their types' sizes, so that all are aligned. */
+static otx_status
+gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
+{
+    const otx_mapping *m = &mapping->mapping;
+    const otx_level *leaf = otx_surface_leaf(m->surface);
+    const otx_cage *cage = m->surface->cage;
+
+    gather_wide(m, out);
     otx_tensors_add(
         out, "cage_points", OTX_TENSOR_F32, cage->vert_count, 3, cage->points);
     otx_tensors_add(out, "uvs", OTX_TENSOR_F32, leaf->corner_count, 2, m->uvs);
-    if (l)
-        otx_tensors_add(out, "lookups", OTX_TENSOR_F32, count, 3, values);
+    OTX_TRY(otx_saved_lookups_add_reals(run, m, out));
     otx_saved_field_add_reals(m, out);
     otx_tensors_add(
         out, "face_cage", OTX_TENSOR_I32, leaf->face_count, 0, leaf->face_cage);
@@ -163,13 +87,7 @@ gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
         leaf->face_first);
     otx_tensors_add(
         out, "face_patch", OTX_TENSOR_I32, leaf->face_count, 0, m->face_patch);
-    if (l)
-    {
-        otx_tensors_add(
-            out, "lookup_fragment", OTX_TENSOR_I32, count, 0, fragments);
-        OTX_TRY(list_fragments(run, l, out));
-        OTX_TRY(list_outlines(run, l, out));
-    }
+    OTX_TRY(otx_saved_lookups_add_numbers(run, m, out));
     OTX_TRY(otx_saved_field_add_numbers(run, m, out));
     gather_cuts(mapping, out);
     if (m->lattice)
@@ -452,93 +370,18 @@ need(
     return t ? t->data : NULL;
 }
 
+/* Faces that show more than their own UVs. */
 static otx_status
-join_outlines(const loader *l, otx_fragment *fragments, int64_t count)
-{
-    otx_run *run = &l->call->run;
-    const float *list =
-        need(l, "fragment_outlines", OTX_TENSOR_F32, count, OUTLINE_FLOATS);
-    otx_radial *outlines;
-
-    if (!list)
-        return OSDTEX_OK;
-    outlines = OTX_NEW(run->arena, otx_radial, count);
-    if (!outlines)
-        return otx_fail_memory(run, STAGE);
-    for (int64_t i = 0; i < count; ++i)
-    {
-        const float *row = list + OUTLINE_FLOATS * i;
-
-        for (int32_t k = 0; k < OUTLINE_FLOATS; ++k)
-            if (!isfinite(row[k]))
-                return damaged(l, "an outline is not finite");
-        if (!(row[2] > 0.0f && row[3] > 0.0f))
-            continue;
-        outlines[i].feather = row[4];
-        memcpy(outlines[i].radius, row + 5, sizeof outlines[i].radius);
-        otx_radial_bound(&outlines[i]);
-        memcpy(fragments[i].frame, row, sizeof fragments[i].frame);
-        fragments[i].outline = &outlines[i];
-    }
-    return OSDTEX_OK;
-}
-
-static otx_status
-join_lookups(const loader *l, const otx_level *leaf, otx_mapping *out)
-{
-    otx_run *run = &l->call->run;
-    const int64_t *first = need(
-        l, "lookup_first", OTX_TENSOR_I64, (int64_t)leaf->face_count + 1, 0);
-    const int64_t count = first ? first[leaf->face_count] : 0;
-    const float *values = need(l, "lookups", OTX_TENSOR_F32, count, 3);
-    const int32_t *of = need(l, "lookup_fragment", OTX_TENSOR_I32, count, 0);
-    const otx_tensor *list =
-        otx_tensors_find(l->tensors, "fragments", OTX_TENSOR_I32, -1, 2);
-    otx_lookups *lookups = OTX_ZNEW(run->arena, otx_lookups, 1);
-    otx_fragment *fragments;
-    otx_lookup *items;
-
-    if (!first)
-        return OSDTEX_OK;
-    if (count < 0 || !values || !of || !list || list->rows > INT32_MAX ||
-        first[0] != 0)
-        return damaged(l, "its lookups do not fit together");
-    items = OTX_NEW(run->arena, otx_lookup, count);
-    fragments = OTX_ZNEW(run->arena, otx_fragment, list->rows);
-    OTX_TRY(otx_run_ok(run));
-    for (int32_t f = 0; f < leaf->face_count; ++f)
-        if (first[f + 1] < first[f] || first[f + 1] > count ||
-            (first[f + 1] - first[f]) % otx_level_face_size(leaf, f) != 0)
-            return damaged(l, "its lookups do not fit the faces");
-    for (int64_t i = 0; i < count; ++i)
-    {
-        items[i] = (otx_lookup){
-            {values[3 * i], values[3 * i + 1]}, values[3 * i + 2], of[i]};
-        if (of[i] < -1 || of[i] >= list->rows)
-            return damaged(l, "a lookup has no fragment");
-    }
-    for (int32_t i = 0; i < (int32_t)list->rows; ++i)
-    {
-        const int32_t *row = (const int32_t *)list->data + 2 * (size_t)i;
-
-        fragments[i] = (otx_fragment){.exemplar = row[0], .patch = row[1]};
-        if (row[0] < 0 || row[0] >= l->about.exemplar_count)
-            return damaged(l, "a fragment has no exemplar");
-    }
-    OTX_TRY(join_outlines(l, fragments, list->rows));
-    *lookups = (otx_lookups){
-        first, items, (otx_layering)l->about.layering, (int32_t)list->rows,
-        fragments};
-    out->lookups = lookups;
-    return OSDTEX_OK;
-}
-
-static otx_status
-join_made(const loader *l, otx_mapping *out)
+join_shown(const loader *l, otx_mapping *out)
 {
     otx_vec2 unit[OTX_EXEMPLARS_MAX];
     const char *what;
 
+    OTX_TRY(otx_saved_lookups_join(
+        &l->call->run, l->tensors, (otx_layering)l->about.layering,
+        l->about.exemplar_count, out, &what));
+    if (what)
+        return damaged(l, what);
     for (int32_t k = 0; k < l->about.exemplar_count; ++k)
         unit[k] = (otx_vec2){
             1.0 / l->about.exemplars[k].match_width,
@@ -598,8 +441,7 @@ join_arrays(const loader *l, otx_mapping *out)
     memcpy(out->face_patch, patch, sizeof *patch * (size_t)leaf->face_count);
     if (l->about.exemplar_count > 1 && !out->patch_exemplar)
         return damaged(l, "it does not say which exemplar its patches show");
-    OTX_TRY(join_lookups(l, leaf, out));
-    OTX_TRY(join_made(l, out));
+    OTX_TRY(join_shown(l, out));
     return join_fields(l, leaf, out);
 }
 
