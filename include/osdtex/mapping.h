@@ -109,8 +109,8 @@ typedef struct osdtex_map_options
     const osdtex_field *field;
     /* Width in texels of a band across seams that is made anew from the
      * exemplar, texel by texel, so that structure goes on through it; 0: seams
-     * stay as they were cut; OSDTEX_HEAL_AUTO: 64. Bakes and pictures show it,
-     * UVs cannot. */
+     * stay as they were cut; OSDTEX_HEAL_AUTO: 64, only of seams that show, and
+     * where it helps. Bakes and pictures show it, UVs cannot. */
     double heal;
 } osdtex_map_options;
 

@@ -3,6 +3,33 @@
 
 #include "heal/heal.h"
 
+/* Which seams were mended, and what windows say of it. */
+static void
+say_gate(otx_figures *figures, const otx_heal_figures *healed)
+{
+    static const char *const NAMES[][2] = {
+        {"healed.windows.seams_before", "healed.windows.seams"},
+        {"healed.windows.around_before", "healed.windows.around"},
+        {"healed.windows.all_before", "healed.windows.all"}};
+    const double *const values[] = {
+        healed->windows_on, healed->windows_around, healed->windows_all};
+
+    otx_figures_count(figures, "healed.sections", "sections", healed->sections);
+    otx_figures_count(figures, "healed.mended", "sections", healed->mended);
+    otx_figures_real(
+        figures, "healed.mended_length_share", "",
+        healed->seam_length > 0.0 ? healed->mended_length / healed->seam_length
+                                  : 0.0);
+    otx_figures_real(
+        figures, "healed.windows.exemplar", "sigma", healed->windows_itself);
+    otx_figures_real(
+        figures, "healed.windows.interior_p90", "sigma",
+        healed->windows_interior_p90);
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 2; ++k)
+            otx_figures_real(figures, NAMES[i][k], "sigma", values[i][k]);
+}
+
 otx_status
 otx_heal_call(otx_run *run, double band, osdtex_mapping *handle)
 {
@@ -18,6 +45,7 @@ otx_heal_call(otx_run *run, double band, osdtex_mapping *handle)
             "a band of {heal} is 0 to 512 texels wide, not %g", band);
     if (band > 0.0)
         options.band = band;
+    options.gate = band == OSDTEX_HEAL_AUTO;
     handle->mapping.field = NULL; /* what was made before is made anew */
     otx_figures_stage(figures, "heal");
     OTX_TRY(otx_heal_run(
@@ -30,5 +58,7 @@ otx_heal_call(otx_run *run, double band, osdtex_mapping *handle)
     otx_figures_real(
         figures, "healed.area_share", "",
         healed.area > 0.0 ? (double)healed.texels / healed.area : 0.0);
+    if (options.gate)
+        say_gate(figures, &healed);
     return OSDTEX_OK;
 }

@@ -168,8 +168,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_HEAL] =
         {"heal", 0, OTX_FLAG_GROUP_BAKE, "PX|auto",
          "make a band of this many texels of the exemplar across seams anew, "
-         "so that its structure goes on through them; auto is 64 (default 0: "
-         "none)"},
+         "so that its structure goes on through them; auto: of 64, only where "
+         "seams show and it helps (default 0: none)"},
     [OTX_FLAG_EXTRA] =
         {"extra", 0, OTX_FLAG_GROUP_BAKE, "patch,uv,stretch,seam,source",
          "also bake these, as 32-bit NAME_patch.<UDIM>.exr and so on"},

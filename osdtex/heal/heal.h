@@ -17,12 +17,13 @@ typedef struct otx_heal_options
                      * features */
     int32_t coarse_radius;
     int32_t starts; /* tried at the coarsest level */
+    bool gate;      /* only what shows is mended */
 } otx_heal_options;
 
 static inline otx_heal_options
 otx_heal_options_default(void)
 {
-    return (otx_heal_options){64.0, 5, 3, 4};
+    return (otx_heal_options){64.0, 5, 3, 4, false};
 }
 
 typedef struct otx_heal_figures
@@ -30,7 +31,15 @@ typedef struct otx_heal_figures
     int32_t charts;
     int64_t texels;     /* made */
     double area;        /* of the surface, texels */
-    double seam_length; /* that was mended, texels */
+    double seam_length; /* within one exemplar, texels */
+    /* With a gate. */
+    int32_t sections, mended;    /* pieces of seam, and of them */
+    double mended_length;        /* texels */
+    double windows_itself;       /* of the exemplar from the rest of itself */
+    double windows_interior_p90; /* distances of windows, in units of sigma */
+    double windows_on[2];        /* at mended seams, before and after */
+    double windows_around[2];    /* within 48 texels of them */
+    double windows_all[2];       /* anywhere */
 } otx_heal_figures;
 
 /* Heals the seams of a finished mapping within each of its exemplars; where two

@@ -384,27 +384,37 @@ static void
 spread(otx_canvas *c, const uint8_t *in, uint8_t *out)
 {
     const int32_t r = c->radius, rim = OTX_CANVAS_RIM;
+    const ptrdiff_t up = c->stride;
     uint8_t *row = (uint8_t *)c->row;
 
+    /* How many there are: one comes, one goes. */
     for (int32_t y = -rim; y < c->height + rim; ++y)
-        for (int32_t x = 0; x < c->width; ++x)
-        {
-            const ptrdiff_t at = otx_canvas_index(c, x, y);
+    {
+        ptrdiff_t at = otx_canvas_index(c, 0, y);
+        uint8_t count = 0;
 
-            row[at] = 0;
-            for (int32_t i = -r; i <= r; ++i)
-                row[at] |= in[at + i];
-        }
-    for (int32_t y = 0; y < c->height; ++y)
-        for (int32_t x = 0; x < c->width; ++x)
+        for (int32_t i = -r; i < r; ++i)
+            count = (uint8_t)(count + in[at + i]);
+        for (int32_t x = 0; x < c->width; ++x, ++at)
         {
-            const ptrdiff_t at = otx_canvas_index(c, x, y);
+            count = (uint8_t)(count + in[at + r]);
+            row[at] = count;
+            count = (uint8_t)(count - in[at - r]);
+        }
+    }
+    for (int32_t y = 0; y < c->height; ++y)
+    {
+        const ptrdiff_t first = otx_canvas_index(c, 0, y);
+
+        for (ptrdiff_t at = first; at < first + c->width; ++at)
+        {
             uint8_t any = 0;
 
             for (int32_t j = -r; j <= r; ++j)
-                any |= row[at + (ptrdiff_t)j * c->stride];
-            out[at] = any;
+                any |= row[at + j * up];
+            out[at] = any != 0;
         }
+    }
 }
 
 /* Windows with a FREE texel are searched; what these have in them is voted; and

@@ -51,6 +51,17 @@ is_held(const seeker *s, ptrdiff_t at, otx_synth_match m)
            (symmetry > 2 && fabsf(across) >= s->cos_tolerance);
 }
 
+static bool
+is_barred(const seeker *s, ptrdiff_t at, otx_synth_match m)
+{
+    const otx_canvas *c = s->canvas;
+
+    return s->pass->apart > 0.0f &&
+           otx_nearest_is_near(
+               c, (int32_t)(at % c->stride) - OTX_CANVAS_RIM,
+               (int32_t)(at / c->stride) - OTX_CANVAS_RIM, m, s->pass->apart);
+}
+
 static void
 take(const seeker *s, ptrdiff_t at, otx_synth_match m, float cost)
 {
@@ -75,7 +86,7 @@ try_match(const seeker *s, ptrdiff_t at, otx_synth_match m, float factor)
     const float limit =
         factor * (c->costs[at] + overuse(s, c->matches[at])) - more;
 
-    if (!(limit >= 0.0f) || !is_held(s, at, m))
+    if (!(limit >= 0.0f) || !is_held(s, at, m) || is_barred(s, at, m))
         return;
 
     const otx_window_frame frame = otx_window_frame_of(c, at, m);

@@ -22,6 +22,8 @@ typedef struct otx_nearest_pass
     double tolerance; /* of a field, radians */
     int32_t symmetry; /* of a field */
     const otx_occurrence *usage; /* NULL: it costs nothing */
+    float apart; /* texels along both axes that a match has to be from where the
+                  * chart itself has it; 0: it may be anywhere */
 } otx_nearest_pass;
 
 /* One pass over all canvases of a level.
@@ -33,6 +35,24 @@ typedef struct otx_nearest_pass
 otx_status otx_nearest_search(
     otx_run *run, otx_canvas *const *canvases, const otx_synth_chart *charts,
     int32_t count, const otx_nearest_pass *pass);
+
+/* Whether a match is less than `apart` texels along both axes from where a
+ * chart that is the pattern has texel (x, y) of the canvas. */
+static inline bool
+otx_nearest_is_near(
+    const otx_canvas *c, int32_t x, int32_t y, otx_synth_match m, float apart)
+{
+    const float width = (float)c->pattern->width;
+    const float height = (float)c->pattern->height;
+    float dx = fabsf(m.x - ((float)x + 0.5f) * c->step_x);
+    float dy = fabsf(m.y - ((float)y + 0.5f) * c->step_y);
+
+    if (c->pattern->wrap_x && dx > 0.5f * width)
+        dx = width - dx;
+    if (c->pattern->wrap_y && dy > 0.5f * height)
+        dy = height - dy;
+    return dx < apart && dy < apart;
+}
 
 /* A place and an angle by chance, within the tolerance of a field.
  *

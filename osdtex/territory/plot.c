@@ -211,7 +211,10 @@ mark_segment(otx_vec2 a, otx_vec2 b, double reach, otx_plot *plot)
             double t = square > 0.0 ? otx_vec2_dot(p, d) / square : 0.0;
 
             t = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
-            if (otx_vec2_length(otx_vec2_sub(p, otx_vec2_scale(t, d))) <= reach)
+
+            const otx_vec2 off = otx_vec2_sub(p, otx_vec2_scale(t, d));
+
+            if (otx_vec2_dot(off, off) <= reach * reach)
                 plot->near[(int64_t)y * plot->width + x] = 1;
         }
 }

@@ -3,6 +3,8 @@
 
 #include "mapping/seam.h"
 
+#include <string.h>
+
 otx_status
 otx_target_set_lay_out(otx_target_set *set, double side, double collar)
 {
@@ -200,18 +202,60 @@ otx_target_fill(otx_target_set *h, int32_t k)
     otx_arena *arena = h->run->scratch;
     otx_target *t = &h->targets[k];
 
-    t->kinds = OTX_ZNEW(arena, uint8_t, count);
-    t->metric = OTX_ZNEW(arena, float, 3 * count);
-    t->matches = OTX_ZNEW(arena, otx_synth_match, count);
-    t->places = OTX_ZNEW(arena, otx_synth_place, count);
-    if (h->guide)
-        t->field = OTX_ZNEW(arena, float, 2 * count);
-    OTX_TRY(otx_run_ok(h->run));
+    if (!t->kinds)
+    {
+        t->kinds = OTX_NEW(arena, uint8_t, count);
+        t->metric = OTX_ZNEW(arena, float, 3 * count);
+        t->matches = OTX_ZNEW(arena, otx_synth_match, count);
+        t->places = OTX_ZNEW(arena, otx_synth_place, count);
+        if (h->guide)
+            t->field = OTX_ZNEW(arena, float, 2 * count);
+        OTX_TRY(otx_run_ok(h->run));
+    }
+    memset(t->kinds, OTX_SYNTH_VOID, (size_t)count);
+    t->free = 0;
     for (int32_t slot = 0; slot < plot->chart->face_count && count > 0; ++slot)
         for (int32_t i = 0; i < otx_facet_count(leaf, plot->chart->faces[slot]);
              ++i)
             fill_facet(h, k, slot, i);
     return OSDTEX_OK;
+}
+
+/* The match of a place in the chart that owns it, as this one sees it. */
+static bool
+read_place(
+    const otx_target_set *h, const otx_synth_place *place, otx_synth_match *out)
+{
+    const otx_plot *plot = &h->plots[place->chart];
+    const otx_target *t = &h->targets[place->chart];
+    const int64_t i =
+        (int64_t)floorf(place->y) * plot->width + (int64_t)floorf(place->x);
+    const float dx = place->x - floorf(place->x) - 0.5f;
+    const float dy = place->y - floorf(place->y) - 0.5f;
+
+    if (t->kinds[i] != OTX_SYNTH_FREE)
+        return false;
+
+    const float *m = t->metric + 3 * i;
+    const otx_synth_match from = t->matches[i];
+    const float sx = m[0] * dx + m[1] * dy, sy = m[1] * dx + m[2] * dy;
+
+    *out = (otx_synth_match){
+        from.x + from.c * sx - from.s * sy, from.y + from.s * sx + from.c * sy,
+        from.c * place->c - from.s * place->s,
+        from.s * place->c + from.c * place->s};
+    return true;
+}
+
+void
+otx_target_read_collar(otx_target_set *h, int32_t k)
+{
+    const int64_t count = (int64_t)h->plots[k].width * h->plots[k].height;
+    otx_target *t = &h->targets[k];
+
+    for (int64_t i = 0; t->kinds && i < count; ++i)
+        if (t->kinds[i] == OTX_SYNTH_COLLAR)
+            read_place(h, &t->places[i], &t->matches[i]);
 }
 
 void

@@ -42,8 +42,12 @@ typedef struct otx_target_set
 otx_status
 otx_target_set_lay_out(otx_target_set *set, double side, double collar);
 
-/* Chart k, whose exemplar is at hand; in run->scratch. MEMORY. */
+/* Chart k, whose exemplar is at hand; in run->scratch, where it is filled for
+ * the first time. MEMORY. */
 otx_status otx_target_fill(otx_target_set *set, int32_t k);
+
+/* Sets the matches of a chart's collar to what their owners have made. */
+void otx_target_read_collar(otx_target_set *set, int32_t k);
 
 /* Those of the exemplar at hand for the engine. Those of others stand between
  * them without a texel, so that numbers stay.

@@ -45,6 +45,20 @@ class Heal(ProgramTest):
             healed,
             self.bake("d", "--from", self.folder / "plain.osdtex", *HEAL)[0])
 
+    def test_what_auto_says(self):
+        one, healed = self.bake("one", *MAPPED, "--heal", "auto")
+        windows = healed["windows"]
+        self.assertTrue(0 <= healed["mended"] <= healed["sections"])
+        self.assertTrue(0 <= healed["mended_length_share"] <= 1)
+        self.assertGreater(windows["exemplar"], 0)
+        if healed["mended"] > 0:
+            self.assertGreater(
+                windows["seams_before"], windows["interior_p90"])
+            self.assertLess(windows["seams"], windows["seams_before"])
+        self.assertEqual(
+            one, self.bake("other", *MAPPED, "--heal", "auto", "--threads",
+                           "1")[0])
+
     def test_uvs_cannot_say_it(self):
         result = self.run_map(*MAPPED, *HEAL)
         self.assert_exit(result, 0)

@@ -179,6 +179,36 @@ bytes_do_not_depend_on_threads(void **state)
     test_run_destroy(other.run);
 }
 
+/* With a gate a cut that shows is mended, and one within what repeats, which
+ * nobody can see, is not. */
+static void
+only_what_shows_is_mended(void **state)
+{
+    (void)state;
+    for (int shows = 0; shows < 2; ++shows)
+    {
+        scene s = set(2);
+        otx_heal_options options = otx_heal_options_default();
+        const otx_source_field *field;
+        otx_heal_figures figures;
+
+        shift(&s, FACES / 2 - 1, FACES / 2 + 1, shows ? 5.0 : PERIOD);
+        options.gate = true;
+        options.levels = 3;
+        options.starts = 1;
+        assert_int_equal(
+            otx_heal_run(
+                s.run, s.mapping, s.exemplar, &options, &field, &figures),
+            OSDTEX_OK);
+        assert_true(figures.sections > 0);
+        assert_int_equal(figures.mended > 0, shows);
+        assert_int_equal(field != NULL, shows);
+        if (shows)
+            assert_true(figures.windows_on[1] < 0.75 * figures.windows_on[0]);
+        test_run_destroy(s.run);
+    }
+}
+
 static bool
 never(void *user, const char *stage, double fraction)
 {
@@ -211,6 +241,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_continuous_is_left_alone),
         cmocka_unit_test(a_moved_strip_is_mended),
+        cmocka_unit_test(only_what_shows_is_mended),
         cmocka_unit_test(bytes_do_not_depend_on_threads),
         cmocka_unit_test(it_can_be_stopped),
     };
