@@ -136,30 +136,6 @@ hole_at(int32_t round)
                : 1.0f;
 }
 
-typedef struct hole_job
-{
-    const otx_maker *maker;
-    float hole;
-} hole_job;
-
-static otx_status
-weigh_one(void *context, int64_t index, otx_worker *worker)
-{
-    const hole_job *job = context;
-
-    (void)worker;
-    otx_canvas_weigh(job->maker->canvases[index], job->hole);
-    return OSDTEX_OK;
-}
-
-static otx_status
-weigh_all(const otx_maker *m, float hole)
-{
-    hole_job job = {m, hole};
-
-    return otx_pool_for(m->run->pool, m->count, weigh_one, &job);
-}
-
 static otx_status
 try_start(otx_maker *m, int32_t level, uint32_t start, trial *trials)
 {
@@ -172,8 +148,8 @@ try_start(otx_maker *m, int32_t level, uint32_t start, trial *trials)
         OTX_TRY(otx_maker_vote(m, level, true));
     for (int32_t round = 0; round < ROUNDS; ++round)
     {
-        if (!given)
-            OTX_TRY(weigh_all(m, hole_at(round)));
+        for (int32_t k = 0; k < m->count && !given; ++k)
+            otx_canvas_weigh(m->canvases[k], hole_at(round));
         OTX_TRY(otx_maker_search(m, level, round, PASSES));
         OTX_TRY(otx_maker_vote(m, level, false));
     }
