@@ -46,7 +46,8 @@ class Heal(ProgramTest):
             self.bake("d", "--from", self.folder / "plain.osdtex", *HEAL)[0])
 
     def test_what_auto_says(self):
-        one, healed = self.bake("one", *MAPPED, "--heal", "auto")
+        healed = self.bake("one", CAGE, PICTURE, "--level", "1", "--scale",
+                           "5", "--heal", "auto")[1]
         windows = healed["windows"]
         self.assertTrue(0 <= healed["mended"] <= healed["sections"])
         self.assertTrue(0 <= healed["mended_length_share"] <= 1)
@@ -55,9 +56,6 @@ class Heal(ProgramTest):
             self.assertGreater(
                 windows["seams_before"], windows["interior_p90"])
             self.assertLess(windows["seams"], windows["seams_before"])
-        self.assertEqual(
-            one, self.bake("other", *MAPPED, "--heal", "auto", "--threads",
-                           "1")[0])
 
     def test_uvs_cannot_say_it(self):
         result = self.run_map(*MAPPED, *HEAL)
