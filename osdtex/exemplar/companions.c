@@ -207,7 +207,9 @@ record(otx_run *run, const otx_companion_input *in, otx_companion *out)
         .is_inverted = in->is_inverted,
         .width = in->pixels.width,
         .height = in->pixels.height};
-    return keep(run, in->path, &out->path) && keep(run, in->hash, &out->hash) &&
+    return keep(run, in->path, &out->path) &&
+                   keep(run, in->layer, &out->layer) &&
+                   keep(run, in->hash, &out->hash) &&
                    keep(run, in->type, &out->type)
                ? OSDTEX_OK
                : otx_fail_memory(run, STAGE);

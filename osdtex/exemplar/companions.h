@@ -32,6 +32,7 @@ typedef struct otx_companion
     bool is_there;
     int32_t first;         /* of its channels in the image: three of a normal */
     const char *path;      /* as given; NULL from memory */
+    const char *layer;     /* of an EXR; NULL: as pictures are read */
     const char *hash;      /* of the file's bytes, NULL unknown */
     const char *type;      /* how numbers are stored: "8-bit", "half", ... */
     int32_t channel;       /* of the file's, that it was */
@@ -99,7 +100,7 @@ typedef struct otx_companion_input
     int32_t channel;  /* which one it is; of normals the first of three */
     bool y_down;      /* of normals: DirectX's */
     bool is_inverted; /* 1 less what the file says */
-    const char *path, *hash, *type; /* copied */
+    const char *path, *layer, *hash, *type; /* copied */
 } otx_companion_input;
 
 static inline bool

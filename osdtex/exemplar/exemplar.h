@@ -20,6 +20,7 @@ typedef struct otx_exemplar
                        * are sizes only where `linear` alone was asked for */
     otx_image lab;    /* 3 channels, CIELAB D65 of the display-like picture:
                        * what seams are measured in, whatever matches */
+    bool mixes_maps;  /* `match` holds more than colours, see match_maps.h */
     bool wrap_x;      /* the picture tiles left to right */
     bool wrap_y;
     /* RMS distance of two random texels (sigma) and of horizontally or
