@@ -90,11 +90,15 @@ typedef struct osdtex_exemplar_options
     const osdtex_companion *maps; /* [map_count] */
     int32_t map_count;
     int32_t normals_y_down; /* 1: normal maps are written as DirectX has them;
-                             * NAME.usda and NAME.mtlx take them to be up */
+                             * NAME.usda and NAME.mtlx turn them up again */
     double height_range;  /* scene units from the lowest to the highest value of
                            * a height map, 0 and 1; 0: a twentieth of the
                            * exemplar's width */
     double height_middle; /* the value that stays on the surface; .5 */
+    /* What matches look at, and how much it counts: the colour, and each map
+     * by its kind. All 0: the colour alone. */
+    double match_color;
+    double match_maps[OSDTEX_MAP_KINDS];
 } osdtex_exemplar_options;
 
 static inline osdtex_exemplar_options

@@ -12,7 +12,8 @@
  *     osdtex_exemplar_read(context, info->color, &options, &exemplar);
  *     osdtex_material_destroy(material);
  *
- * Names are looked at, files are not opened. A handle is immutable. */
+ * Names are looked at; only of an EXR with layers the header is read. A handle
+ * is immutable. */
 #ifndef OSDTEX_MATERIAL_H
 #define OSDTEX_MATERIAL_H
 
@@ -38,12 +39,13 @@ typedef struct osdtex_companion
 {
     const char *path;
     osdtex_map_kind kind;
-    int32_t channel;  /* of the file, from 0: red; of normals the first of
-                       * three */
-    int32_t y_down;   /* of normals: 1 where green points down, as DirectX has
-                       * it */
-    int32_t inverted; /* 1: it is 1 less what the file says, as gloss is to
-                       * roughness */
+    int32_t channel;   /* of the file, from 0: red; of normals the first of
+                        * three */
+    int32_t y_down;    /* of normals: 1 where green points down, as DirectX has
+                        * it */
+    int32_t inverted;  /* 1: it is 1 less what the file says, as gloss is to
+                        * roughness */
+    const char *layer; /* of an EXR, by name; NULL: as a picture is read */
 } osdtex_companion;
 
 /* "normal", "roughness", "height", "metalness", "occlusion", as files are
@@ -59,11 +61,14 @@ typedef struct osdtex_material_info
     const osdtex_companion *maps; /* [map_count] */
     int32_t map_count;
     int32_t reserved;
+    const char *color_layer; /* of an EXR: what `layer` of the exemplar is to
+                              * be; NULL: as pictures are read */
 } osdtex_material_info;
 
 /* Finds the files of a material by their names (docs/materials.md).
  *
- *   text  a folder, or FOLDER/PREFIX with what their names begin with
+ *   text  a folder, or FOLDER/PREFIX with what their names begin with, or an
+ *         EXR of which the layers are called so
  *
  * IO (no such folder), FORMAT (no colour, or two files that could be one map),
  * ARGUMENT, MEMORY. */

@@ -3,9 +3,12 @@
 
 #include "api/picture_source.h"
 #include "base/hash.h"
+#include "exemplar/match_maps.h"
+#include "file/exr_data.h"
 #include "file/picture.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const char STAGE[] = "material";
@@ -56,18 +59,44 @@ check(otx_run *run, const osdtex_exemplar_options *options)
     return OSDTEX_OK;
 }
 
+static bool
+same_layer(const char *a, const char *b)
+{
+    return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+/* The only layer of an EXR, whatever its one channel is called; else NULL. */
+static otx_status
+only_layer(otx_run *run, const char *path, const char **out)
+{
+    otx_exr_data_list list;
+
+    *out = NULL;
+    if (!otx_exr_data_is_there(path))
+        return OSDTEX_OK;
+    OTX_TRY(otx_exr_data_list_read(run, path, &list));
+    *out = list.count == 1 ? list.names[0] : NULL;
+    return OSDTEX_OK;
+}
+
 /* The file of map i, or what an earlier map has of it. */
 static otx_status
 read_file(pictures *p, const osdtex_companion *maps, int32_t i)
 {
+    const char *layer = maps[i].layer;
+
     for (int32_t k = 0; k < i; ++k)
-        if (strcmp(maps[k].path, maps[i].path) == 0)
+        if (strcmp(maps[k].path, maps[i].path) == 0 &&
+            same_layer(maps[k].layer, maps[i].layer))
         {
             p->list[i] = p->list[k];
             memcpy(p->hashes[i], p->hashes[k], sizeof p->hashes[i]);
             return OSDTEX_OK;
         }
-    OTX_TRY(otx_picture_read(&p->aside, maps[i].path, &p->list[i]));
+    if (!layer)
+        OTX_TRY(only_layer(&p->aside, maps[i].path, &layer));
+    OTX_TRY(
+        otx_picture_read_layer(&p->aside, maps[i].path, layer, &p->list[i]));
     if (!otx_hash_file(maps[i].path, p->hashes[i]))
         p->hashes[i][0] = '\0';
     return OSDTEX_OK;
@@ -98,27 +127,51 @@ describe(
         .y_down = maps[i].y_down != 0,
         .is_inverted = maps[i].inverted != 0,
         .path = maps[i].path,
+        .layer = maps[i].layer,
         .hash = p->hashes[i][0] ? p->hashes[i] : NULL,
         .type = otx_picture_source_type(picture),
     };
     return OSDTEX_OK;
 }
 
-/* What was found, for the eye. */
+/* One map, for the eye. */
 static void
-say(otx_run *run, const otx_companion_input *in)
+print_map(const otx_companion_input *in, char *text, size_t bytes)
 {
     static const char *const channels[] = {"red", "green", "blue", "alpha"};
     const bool is_normal = in->kind == OTX_COMPANION_NORMAL;
+    const size_t used = strlen(text);
 
-    otx_note(
-        run, OSDTEX_SEVERITY_INFO, STAGE, otx_where_file(in->path),
-        "%s map, %d x %d, %s, data%s%s%s%s", otx_companion_name(in->kind),
-        in->pixels.width, in->pixels.height, in->type,
+    snprintf(
+        text + used, bytes - used, "%s%s map, %d x %d, %s, data%s%s%s%s%s%s",
+        used > 0 ? "; " : "", otx_companion_name(in->kind), in->pixels.width,
+        in->pixels.height, in->type, in->layer ? ", layer " : "",
+        in->layer ? in->layer : "",
         is_normal ? in->y_down ? ", y down (DirectX)" : ", y up (OpenGL)" : "",
         !is_normal && !in->is_gray ? ", from " : "",
         !is_normal && !in->is_gray ? channels[in->channel] : "",
         in->is_inverted ? ", 1 less what it says (gloss)" : "");
+}
+
+/* What was found, a file at a time. */
+static void
+say(otx_run *run, const otx_companion_input *inputs, int32_t count)
+{
+    for (int32_t i = 0; i < count; ++i)
+    {
+        char text[1024] = "";
+        bool said = false;
+
+        for (int32_t k = 0; k < i; ++k)
+            said = said || strcmp(inputs[k].path, inputs[i].path) == 0;
+        for (int32_t k = i; k < count && !said; ++k)
+            if (strcmp(inputs[k].path, inputs[i].path) == 0)
+                print_map(&inputs[k], text, sizeof text);
+        if (!said)
+            otx_note(
+                run, OSDTEX_SEVERITY_INFO, STAGE,
+                otx_where_file(inputs[i].path), "%s", text);
+    }
 }
 
 otx_status
@@ -143,8 +196,8 @@ otx_companion_pictures_take(
     {
         OTX_TRY(read_file(p, options->maps, i));
         OTX_TRY(describe(run, p, options->maps, i, &inputs[i]));
-        say(run, &inputs[i]);
     }
+    say(run, inputs, options->map_count);
     OTX_TRY(otx_companions_build(
         run, inputs, options->map_count, color->width, color->height,
         exemplar->wrap_x, exemplar->wrap_y, out));
@@ -152,4 +205,16 @@ otx_companion_pictures_take(
     out->height_middle = options->height_middle;
     out->written_y_down = options->normals_y_down != 0;
     return OSDTEX_OK;
+}
+
+otx_status
+otx_companion_pictures_match(
+    otx_run *run, const osdtex_exemplar_options *options,
+    otx_exemplar *exemplar)
+{
+    otx_match_weights weights = {.color = options->match_color};
+
+    for (int k = 0; k < OTX_COMPANION_COUNT; ++k)
+        weights.maps[k] = options->match_maps[k];
+    return otx_match_maps_mix(run, &weights, exemplar);
 }

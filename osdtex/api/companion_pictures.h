@@ -12,4 +12,10 @@ otx_status otx_companion_pictures_take(
     otx_call *call, const osdtex_exemplar_options *options,
     otx_exemplar *exemplar);
 
+/* Makes what is compared hold the maps that `options` want matched. ARGUMENT,
+ * MEMORY. */
+otx_status otx_companion_pictures_match(
+    otx_run *run, const osdtex_exemplar_options *options,
+    otx_exemplar *exemplar);
+
 #endif

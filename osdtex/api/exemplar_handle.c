@@ -271,6 +271,7 @@ build(
     handle->arena = run->arena;
     OTX_TRY(otx_exemplar_build(run, colour, input, &handle->exemplar));
     OTX_TRY(otx_companion_pictures_take(call, options, &handle->exemplar));
+    OTX_TRY(otx_companion_pictures_match(run, options, &handle->exemplar));
     width = handle->exemplar.linear.width;
     height = handle->exemplar.linear.height;
     handle->cuts = (otx_exemplar_cuts){

@@ -1,13 +1,18 @@
 /* material_handle.c -- the files of a material as maps of an exemplar. */
 #include "api/call.h"
 #include "exemplar/companions.h"
-#include "file/material_files.h"
+#include "file/material_layers.h"
+
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
 
 struct osdtex_material
 {
     otx_arena *arena;
     osdtex_companion maps[OSDTEX_MAP_KINDS];
     osdtex_material_info info;
+    otx_material_files layers; /* by role, of an EXR that has them */
 };
 
 const char *
@@ -18,11 +23,17 @@ osdtex_map_kind_name(osdtex_map_kind kind)
                : NULL;
 }
 
-static void
-add(osdtex_material *m, const char *path, osdtex_map_kind kind)
+static osdtex_companion *
+add(osdtex_material *m, const otx_material_files *files, otx_material_role role,
+    osdtex_map_kind kind)
 {
-    m->maps[m->info.map_count++] =
-        (osdtex_companion){.path = path, .kind = kind};
+    osdtex_companion *map = &m->maps[m->info.map_count++];
+
+    *map = (osdtex_companion){
+        .path = files->paths[role],
+        .layer = m->layers.paths[role],
+        .kind = kind};
+    return map;
 }
 
 /* A file of its own wins over a packed one. */
@@ -31,15 +42,10 @@ add_or_unpack(
     osdtex_material *m, const otx_material_files *files, otx_material_role role,
     osdtex_map_kind kind, int32_t channel)
 {
-    const char *packed = files->paths[OTX_MATERIAL_PACKED];
-
     if (files->paths[role])
-        add(m, files->paths[role], kind);
-    else if (packed)
-    {
-        add(m, packed, kind);
-        m->maps[m->info.map_count - 1].channel = channel;
-    }
+        add(m, files, role, kind);
+    else if (files->paths[OTX_MATERIAL_PACKED])
+        add(m, files, OTX_MATERIAL_PACKED, kind)->channel = channel;
 }
 
 static void
@@ -50,24 +56,29 @@ list_maps(osdtex_material *m, const otx_material_files *files)
         paths[OTX_MATERIAL_GLOSS] && !paths[OTX_MATERIAL_ROUGHNESS];
 
     if (paths[OTX_MATERIAL_NORMAL])
-        add(m, paths[OTX_MATERIAL_NORMAL], OSDTEX_MAP_NORMAL);
+        add(m, files, OTX_MATERIAL_NORMAL, OSDTEX_MAP_NORMAL);
     else if (paths[OTX_MATERIAL_NORMAL_DX])
-    {
-        add(m, paths[OTX_MATERIAL_NORMAL_DX], OSDTEX_MAP_NORMAL);
-        m->maps[0].y_down = 1;
-    }
+        add(m, files, OTX_MATERIAL_NORMAL_DX, OSDTEX_MAP_NORMAL)->y_down = 1;
     if (gloss)
-    {
-        add(m, paths[OTX_MATERIAL_GLOSS], OSDTEX_MAP_ROUGHNESS);
-        m->maps[m->info.map_count - 1].inverted = 1;
-    }
+        add(m, files, OTX_MATERIAL_GLOSS, OSDTEX_MAP_ROUGHNESS)->inverted = 1;
     else
         add_or_unpack(
             m, files, OTX_MATERIAL_ROUGHNESS, OSDTEX_MAP_ROUGHNESS, 1);
     if (paths[OTX_MATERIAL_HEIGHT])
-        add(m, paths[OTX_MATERIAL_HEIGHT], OSDTEX_MAP_HEIGHT);
+        add(m, files, OTX_MATERIAL_HEIGHT, OSDTEX_MAP_HEIGHT);
     add_or_unpack(m, files, OTX_MATERIAL_METALNESS, OSDTEX_MAP_METALNESS, 2);
     add_or_unpack(m, files, OTX_MATERIAL_OCCLUSION, OSDTEX_MAP_OCCLUSION, 0);
+}
+
+/* A file that is there and called .exr. */
+static bool
+is_exr(const char *text)
+{
+    const char *dot = strrchr(text, '.');
+    struct stat info;
+
+    return dot && strcasecmp(dot, ".exr") == 0 && stat(text, &info) == 0 &&
+           S_ISREG(info.st_mode);
 }
 
 static otx_status
@@ -82,9 +93,11 @@ find(otx_run *run, const char *text, osdtex_material **out)
             "no folder or name of a material is given");
     if (!m)
         return otx_fail_memory(run, "material");
-    OTX_TRY(otx_material_files_find(run, text, &files));
+    OTX_TRY((is_exr(text) ? otx_material_layers_find : otx_material_files_find)(
+        run, text, &files));
     m->arena = run->arena;
     m->info.color = files.paths[OTX_MATERIAL_COLOR];
+    m->info.color_layer = m->layers.paths[OTX_MATERIAL_COLOR];
     list_maps(m, &files);
     m->info.maps = m->maps;
     *out = m;

@@ -115,6 +115,8 @@ put_maps(json_t *parent, const otx_companions *companions)
             continue;
         one = add_object(maps, otx_companion_name((otx_companion_kind)k));
         set_text(one, "path", map->path);
+        if (map->layer)
+            set_text(one, "layer", map->layer);
         set_text(one, "hash", map->hash);
         set_text(one, "type", map->type);
         set_text(one, "space", "data");

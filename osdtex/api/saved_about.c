@@ -66,10 +66,11 @@ print_maps(const otx_companions *companions)
         if (map->is_there && map->path)
             json_array_append_new(
                 list, json_pack(
-                          "{s:s, s:s, s:i, s:b, s:b}", "kind",
+                          "{s:s, s:s, s:o, s:i, s:b, s:b}", "kind",
                           otx_companion_name((otx_companion_kind)k), "path",
-                          map->path, "channel", (int)map->channel, "y_down",
-                          map->y_down, "inverted", map->is_inverted));
+                          map->path, "layer", text_or_null(map->layer),
+                          "channel", (int)map->channel, "y_down", map->y_down,
+                          "inverted", map->is_inverted));
     }
     return list;
 }
@@ -290,6 +291,8 @@ parse_maps(parser *p, const json_t *json, otx_saved_exemplar *out)
             .channel = get_member(p, map, "channel", 0, 3),
             .y_down = json_is_true(json_object_get(map, "y_down")),
             .inverted = json_is_true(json_object_get(map, "inverted"))};
+        if (json_object_get(map, "layer"))
+            out->maps[i].layer = get_text(p, map, "layer", true);
     }
     out->options.map_count = (int32_t)count;
     if (count == 0)

@@ -81,6 +81,12 @@ check(
                 run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
                 "exemplar %d is missing, or its scale is no positive number",
                 (int)k + 2);
+        if (also->exemplar->exemplar.mixes_maps ||
+            handle->exemplar->exemplar.mixes_maps)
+            return otx_fail(
+                run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+                "of several exemplars the colours are matched, which mean the "
+                "same in each; leave {match-maps} away");
         OTX_TRY(check_spaces(run, handle->exemplar, also->exemplar));
     }
     return OSDTEX_OK;

@@ -41,7 +41,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "material as --material takes it"},
     [OTX_FLAG_MATERIAL] =
         {"material", 0, OTX_FLAG_GROUP_MAIN, "FOLDER|PREFIX",
-         "the set of maps in a folder, or of those whose names begin so: "
+         "the set of maps in a folder, or of those whose names begin so, or "
+         "in the layers of an EXR: "
          "colour, which stands in the place of EXEMPLAR, normal, roughness, "
          "height, metalness and occlusion, found by what their files are "
          "called; all get the same mapping and are written beside the colour"},
@@ -50,6 +51,15 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "maps by name: normal, normal-dx (y down), roughness, gloss, height, "
          "metalness, occlusion, or arm, which holds occlusion, roughness and "
          "metalness"},
+    [OTX_FLAG_NORMAL_Y] =
+        {"normal-y", 0, OTX_FLAG_GROUP_MAIN, "up|down",
+         "which way green points in the normal maps that are written: up as "
+         "OpenGL has it (default), down as DirectX; NAME.usda and NAME.mtlx "
+         "say so, NAME.mtl cannot"},
+    [OTX_FLAG_MATCH_MAPS] =
+        {"match-maps", 0, OTX_FLAG_GROUP_MAIN, "KIND[=WEIGHT],...",
+         "what is compared where patches meet: color, and maps of the material "
+         "by kind, as 'color,height=.5' (default: color alone)"},
     [OTX_FLAG_HEIGHT_RANGE] =
         {"height-range", 0, OTX_FLAG_GROUP_MAIN, "UNITS",
          "scene units from black to white of the height map (default: a "

@@ -1,5 +1,5 @@
-/* material_flags.c -- --material FOLDER|PREFIX, --map KIND=FILE,..., and
- * --height-range. */
+/* material_flags.c -- --material FOLDER|PREFIX, --map KIND=FILE,...,
+ * --match-maps, --normal-y, and --height-range. */
 #include "cli/material_flags.h"
 
 #include "cli/value.h"
@@ -10,18 +10,19 @@
 static const struct
 {
     const char *word;
-    osdtex_companion map;
+    osdtex_map_kind kind;
+    int32_t channel, y_down, inverted;
 } WORDS[] = {
-    {"normal", {NULL, OSDTEX_MAP_NORMAL, 0, 0, 0}},
-    {"normal-dx", {NULL, OSDTEX_MAP_NORMAL, 0, 1, 0}},
-    {"roughness", {NULL, OSDTEX_MAP_ROUGHNESS, 0, 0, 0}},
-    {"gloss", {NULL, OSDTEX_MAP_ROUGHNESS, 0, 0, 1}},
-    {"height", {NULL, OSDTEX_MAP_HEIGHT, 0, 0, 0}},
-    {"metalness", {NULL, OSDTEX_MAP_METALNESS, 0, 0, 0}},
-    {"occlusion", {NULL, OSDTEX_MAP_OCCLUSION, 0, 0, 0}},
-    {"arm", {NULL, OSDTEX_MAP_OCCLUSION, 0, 0, 0}},
-    {"arm", {NULL, OSDTEX_MAP_ROUGHNESS, 1, 0, 0}},
-    {"arm", {NULL, OSDTEX_MAP_METALNESS, 2, 0, 0}},
+    {"normal", OSDTEX_MAP_NORMAL, 0, 0, 0},
+    {"normal-dx", OSDTEX_MAP_NORMAL, 0, 1, 0},
+    {"roughness", OSDTEX_MAP_ROUGHNESS, 0, 0, 0},
+    {"gloss", OSDTEX_MAP_ROUGHNESS, 0, 0, 1},
+    {"height", OSDTEX_MAP_HEIGHT, 0, 0, 0},
+    {"metalness", OSDTEX_MAP_METALNESS, 0, 0, 0},
+    {"occlusion", OSDTEX_MAP_OCCLUSION, 0, 0, 0},
+    {"arm", OSDTEX_MAP_OCCLUSION, 0, 0, 0},
+    {"arm", OSDTEX_MAP_ROUGHNESS, 1, 0, 0},
+    {"arm", OSDTEX_MAP_METALNESS, 2, 0, 0},
 };
 
 /* In the place of one of its kind, if there is one. */
@@ -46,13 +47,15 @@ take_map(const char *item, const char *all, otx_material_flags *out)
 
     for (size_t i = 0; equals && i < sizeof WORDS / sizeof *WORDS; ++i)
     {
-        osdtex_companion map = WORDS[i].map;
-
         if (strlen(WORDS[i].word) != length ||
             strncmp(WORDS[i].word, item, length) != 0)
             continue;
-        map.path = equals + 1;
-        put(out, map);
+        put(out, (osdtex_companion){
+                     .path = equals + 1,
+                     .kind = WORDS[i].kind,
+                     .channel = WORDS[i].channel,
+                     .y_down = WORDS[i].y_down,
+                     .inverted = WORDS[i].inverted});
         known = true;
     }
     if (known && equals[1])
@@ -92,7 +95,8 @@ take_maps(const otx_flag_values *values, otx_material_flags *out)
 
 static osdtex_status
 take_found(
-    otx_session *session, otx_flag_values *values, otx_material_flags *out)
+    otx_session *session, otx_flag_values *values,
+    osdtex_exemplar_options *options, otx_material_flags *out)
 {
     const char *text = values->text[OTX_FLAG_MATERIAL];
     const osdtex_material_info *info;
@@ -106,10 +110,79 @@ take_found(
     info = osdtex_material_describe(out->found);
     for (int i = 0; i < info->map_count; ++i)
         put(out, info->maps[i]);
+    if (info->color_layer && !values->text[OTX_FLAG_LAYER])
+        options->layer = info->color_layer;
     /* Before the cage there is none. */
     if (values->operand_count == 1 && !values->saved)
         values->operands[values->operand_count++] = info->color;
     return OSDTEX_OK;
+}
+
+static bool
+take_normal_y(const otx_flag_values *values, osdtex_exemplar_options *options)
+{
+    const char *text = values->text[OTX_FLAG_NORMAL_Y];
+
+    if (!text || strcmp(text, "up") == 0)
+        return true;
+    options->normals_y_down = 1;
+    if (strcmp(text, "down") == 0)
+        return true;
+    otx_session_refuse(
+        "--normal-y takes up (OpenGL) or down (DirectX), not '%s'", text);
+    return false;
+}
+
+/* Name and weight of what is matched. */
+static bool
+take_match_item(const char *item, osdtex_exemplar_options *options)
+{
+    const char *equals = strchr(item, '=');
+    const size_t length = equals ? (size_t)(equals - item) : strlen(item);
+    double weight = 1.0;
+
+    if (equals && (!otx_value_real(equals + 1, &weight) || !(weight >= 0.0)))
+        return false;
+    if (length == 5 && strncmp(item, "color", 5) == 0)
+    {
+        options->match_color = weight;
+        return true;
+    }
+    for (osdtex_map_kind k = 0; k < OSDTEX_MAP_KINDS; ++k)
+        if (strlen(osdtex_map_kind_name(k)) == length &&
+            strncmp(osdtex_map_kind_name(k), item, length) == 0)
+        {
+            options->match_maps[k] = weight;
+            return true;
+        }
+    return false;
+}
+
+static bool
+take_match(const otx_flag_values *values, osdtex_exemplar_options *options)
+{
+    const char *all = values->text[OTX_FLAG_MATCH_MAPS];
+    char text[256];
+    bool good = all && strlen(all) < sizeof text;
+
+    if (!all)
+        return true;
+    if (good)
+        strcpy(text, all);
+    for (char *item = text, *next; good && item; item = next)
+    {
+        next = strchr(item, ',');
+        if (next)
+            *next++ = '\0';
+        good = take_match_item(item, options);
+    }
+    if (!good)
+        otx_session_refuse(
+            "--match-maps takes names with commas between, color, normal, "
+            "roughness, height, metalness and occlusion, each with =WEIGHT if "
+            "it is not 1, not '%s'",
+            all);
+    return good;
 }
 
 static bool
@@ -157,11 +230,12 @@ otx_material_flags_take(
     otx_session *session, otx_flag_values *values,
     osdtex_exemplar_options *options, otx_material_flags *out)
 {
-    osdtex_status status = take_found(session, values, out);
+    osdtex_status status = take_found(session, values, options, out);
 
     if (status != OSDTEX_OK)
         return status;
-    if (!take_maps(values, out) || !take_range(values, options))
+    if (!take_maps(values, out) || !take_normal_y(values, options) ||
+        !take_range(values, options) || !take_match(values, options))
         return OSDTEX_ERROR_ARGUMENT;
     options->maps = out->maps;
     options->map_count = out->count;

@@ -49,6 +49,7 @@ otx_companion_files_names(
                        : NULL;
     return (otx_data_maps){
         .normal = names[OTX_COMPANION_NORMAL],
+        .normal_y_down = companions->written_y_down,
         .roughness = names[OTX_COMPANION_ROUGHNESS],
         .metalness = names[OTX_COMPANION_METALNESS],
         .height = names[OTX_COMPANION_HEIGHT],

@@ -120,6 +120,7 @@ map_names(const writer *w)
 {
     return (otx_data_maps){
         .normal = map_name(w, OTX_COMPANION_NORMAL),
+        .normal_y_down = w->exemplars->companions.written_y_down,
         .roughness = map_name(w, OTX_COMPANION_ROUGHNESS),
         .metalness = map_name(w, OTX_COMPANION_METALNESS),
         .height = map_name(w, OTX_COMPANION_HEIGHT),

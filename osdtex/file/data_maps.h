@@ -6,9 +6,12 @@
 #ifndef OTX_FILE_DATA_MAPS_H
 #define OTX_FILE_DATA_MAPS_H
 
+#include <stdbool.h>
+
 typedef struct otx_data_maps
 {
     const char *normal; /* (n + 1) / 2 in the tangent space, y up */
+    bool normal_y_down; /* or down */
     const char *roughness;
     const char *metalness;
     const char *height; /* scene units along the normal */

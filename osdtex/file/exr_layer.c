@@ -1,6 +1,8 @@
 /* exr_layer.c -- which part and which channels of an EXR are the picture. */
 #include "file/exr_layer.h"
 
+#include "file/exr_data.h"
+
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -346,6 +348,17 @@ is_called(const candidate *c, const char *wanted)
            (c->name[0] == '\0' && strcasecmp(wanted, "RGB") == 0);
 }
 
+/* Whether colours are called so, all of it or behind the last dot. */
+static bool
+has_layer(const candidate_list *list, const char *wanted)
+{
+    for (int32_t i = 0; i < list->count; ++i)
+        if (is_called(&list->items[i], wanted) ||
+            strcmp(last_word(list->items[i].name), wanted) == 0)
+            return true;
+    return false;
+}
+
 /* By its whole name, else by what stands behind the last dot. */
 static otx_status
 choose_wanted(
@@ -424,6 +437,9 @@ choose(
 
     exr_get_count(file, &part_count);
     OTX_TRY(find_candidates(&list, part_count));
+    if (wanted && !has_layer(&list, wanted) &&
+        otx_exr_data_find(run, file, wanted, out))
+        return OSDTEX_OK;
     if (list.count == 0)
         return no_color(run, path, file, part_count);
     OTX_TRY(

@@ -31,7 +31,8 @@ typedef struct otx_exr_layer
 } otx_exr_layer;
 
 /*   wanted  a layer or part by name: all of it, or what stands behind its last
- *           dot; NULL: by the rule above
+ *           dot; else one that holds numbers (exr_data.h); NULL: by the rule
+ *           above
  *
  * SUPPORT when nothing in the file can be shown, or it is unclear what, or the
  * colours are subsampled; ARGUMENT when there is no such layer. */

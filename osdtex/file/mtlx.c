@@ -105,17 +105,42 @@ write_images(otx_text_out *out, const otx_mtlx *m, const char *name)
     write_image(out, name, "_height", "float", m->maps.height, NULL);
 }
 
+/* Of maps with y down, green is 1 less what they say. */
+static void
+write_normal(otx_text_out *out, const otx_mtlx *m, const char *name)
+{
+    if (m->maps.normal_y_down)
+        write_text(
+            out,
+            "  <multiply name=\"$_flipped\" type=\"vector3\">\n"
+            "    <input name=\"in1\" type=\"vector3\" "
+            "nodename=\"$_normal\" />\n"
+            "    <input name=\"in2\" type=\"vector3\" value=\"1, -1, 1\" />\n"
+            "  </multiply>\n"
+            "  <add name=\"$_up\" type=\"vector3\">\n"
+            "    <input name=\"in1\" type=\"vector3\" "
+            "nodename=\"$_flipped\" />\n"
+            "    <input name=\"in2\" type=\"vector3\" value=\"0, 1, 0\" />\n"
+            "  </add>\n",
+            name);
+    write_text(
+        out,
+        m->maps.normal_y_down
+            ? "  <normalmap name=\"$_bent\" type=\"vector3\">\n"
+              "    <input name=\"in\" type=\"vector3\" nodename=\"$_up\" />\n"
+              "  </normalmap>\n"
+            : "  <normalmap name=\"$_bent\" type=\"vector3\">\n"
+              "    <input name=\"in\" type=\"vector3\" "
+              "nodename=\"$_normal\" />\n"
+              "  </normalmap>\n",
+        name);
+}
+
 static void
 write_surface(otx_text_out *out, const otx_mtlx *m, const char *name)
 {
     if (m->maps.normal)
-        write_text(
-            out,
-            "  <normalmap name=\"$_bent\" type=\"vector3\">\n"
-            "    <input name=\"in\" type=\"vector3\" "
-            "nodename=\"$_normal\" />\n"
-            "  </normalmap>\n",
-            name);
+        write_normal(out, m, name);
     write_text(
         out,
         "  <standard_surface name=\"$_surface\" type=\"surfaceshader\">\n"

@@ -21,7 +21,7 @@ typedef struct texture
     const char *id;     /* colorInteropID; NULL unknown */
     const char *output; /* "rgb" or "r" */
     const char *input;  /* of the surface, with its type */
-    bool is_normal;
+    bool is_normal, is_y_down;
 } texture;
 
 /* UsdUVTexture knows two encodings: sRGB, and numbers that are taken as they
@@ -44,17 +44,17 @@ list_textures(const otx_usda *u, texture list[TEXTURE_COUNT])
     const otx_data_maps *m = &u->maps;
     const texture all[TEXTURE_COUNT] = {
         {"Texture", u->texture, source_color_space(u->interop_id),
-         u->interop_id, "rgb", "color3f inputs:diffuseColor", false},
+         u->interop_id, "rgb", "color3f inputs:diffuseColor", false, false},
         {"Normal", m->normal, "raw", NULL, "rgb", "normal3f inputs:normal",
-         true},
+         true, m->normal_y_down},
         {"Roughness", m->roughness, "raw", NULL, "r", "float inputs:roughness",
-         false},
+         false, false},
         {"Metalness", m->metalness, "raw", NULL, "r", "float inputs:metallic",
-         false},
+         false, false},
         {"Occlusion", m->occlusion, "raw", NULL, "r", "float inputs:occlusion",
-         false},
+         false, false},
         {"Height", m->height, "raw", NULL, "r", "float inputs:displacement",
-         false}};
+         false, false}};
 
     memcpy(list, all, sizeof all);
 }
@@ -126,8 +126,11 @@ write_texture(otx_text_out *out, const texture *t, const char *name)
         t->space);
     if (t->is_normal)
         otx_text_out_string(
-            out, "            float4 inputs:scale = (2, 2, 2, 1)\n"
-                 "            float4 inputs:bias = (-1, -1, -1, 0)\n");
+            out, t->is_y_down
+                     ? "            float4 inputs:scale = (2, -2, 2, 1)\n"
+                       "            float4 inputs:bias = (-1, 1, -1, 0)\n"
+                     : "            float4 inputs:scale = (2, 2, 2, 1)\n"
+                       "            float4 inputs:bias = (-1, -1, -1, 0)\n");
     write_text(
         out,
         "            token inputs:wrapS = \"clamp\"\n"

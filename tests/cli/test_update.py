@@ -29,6 +29,7 @@ CHANGED = {
     "match-in": "lab", "wrap": "no", "tileable": "make", "show": "uv",
     "weld": "0.1", "layer": "beauty", "normals": None, "units": "mm",
     "up": "z", "material": "m", "map": "height=m.png", "height-range": "2",
+    "normal-y": "down", "match-maps": "color,height",
     "plain": None, "displace": None,
     "height-middle": "0",
 }
