@@ -93,8 +93,10 @@ find(otx_run *run, const char *text, osdtex_material **out)
             "no folder or name of a material is given");
     if (!m)
         return otx_fail_memory(run, "material");
-    OTX_TRY((is_exr(text) ? otx_material_layers_find : otx_material_files_find)(
-        run, text, &files));
+    if (is_exr(text))
+        OTX_TRY(otx_material_layers_find(run, text, &files, &m->layers));
+    else
+        OTX_TRY(otx_material_files_find(run, text, &files));
     m->arena = run->arena;
     m->info.color = files.paths[OTX_MATERIAL_COLOR];
     m->info.color_layer = m->layers.paths[OTX_MATERIAL_COLOR];

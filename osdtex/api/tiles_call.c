@@ -2,6 +2,7 @@
 #include "api/call.h"
 #include "api/handle.h"
 #include "api/method_settings.h"
+#include "export/companion_files.h"
 #include "export/texture_file.h"
 #include "tiling/tileset.h"
 
@@ -125,11 +126,20 @@ write_set(
     otx_run *run, const char *path, const otx_exemplar *exemplar,
     const otx_tileset *made)
 {
+    otx_exemplar tiles = *exemplar;
     otx_atomic_file_set *set;
 
     OTX_TRY(otx_atomic_file_begin(run, run->scratch, &set));
     OTX_TRY(otx_texture_file_write(
         run, set, path, exemplar, &made->linear, &made->layout));
+    /* Heights as they were: how much they are in scene units is asked for where
+     * the tiles are mapped. */
+    tiles.linear = made->linear;
+    tiles.tiles = made->layout;
+    tiles.companions = made->companions;
+    tiles.companions.height_range = 1.0;
+    tiles.companions.height_middle = 0.0;
+    OTX_TRY(otx_companion_files_write(run, set, path, &tiles, 1.0));
     return otx_atomic_file_commit(run, set, true);
 }
 

@@ -133,6 +133,10 @@ static const otx_flag_id bake_flags[] = {
 
 static const otx_flag_id tiles_flags[] = {
     OTX_FLAG_OUTPUT,
+    OTX_FLAG_MATERIAL,
+    OTX_FLAG_MAP,
+    OTX_FLAG_MATCH_MAPS,
+    OTX_FLAG_NORMAL_Y,
     OTX_FLAG_BOUNDARIES,
     OTX_FLAG_CORNERS,
     OTX_FLAG_TILE_SIZE,

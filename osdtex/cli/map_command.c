@@ -343,7 +343,7 @@ prepare(otx_session *session, job *j)
 
     if (status == OSDTEX_OK)
         status = otx_material_flags_take(
-            session, &j->values, &j->request.exemplar_options,
+            session, &j->values, 1, &j->request.exemplar_options,
             &j->request.material);
     if (status == OSDTEX_OK)
         status =

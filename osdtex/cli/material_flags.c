@@ -95,7 +95,7 @@ take_maps(const otx_flag_values *values, otx_material_flags *out)
 
 static osdtex_status
 take_found(
-    otx_session *session, otx_flag_values *values,
+    otx_session *session, otx_flag_values *values, int operand,
     osdtex_exemplar_options *options, otx_material_flags *out)
 {
     const char *text = values->text[OTX_FLAG_MATERIAL];
@@ -113,7 +113,7 @@ take_found(
     if (info->color_layer && !values->text[OTX_FLAG_LAYER])
         options->layer = info->color_layer;
     /* Before the cage there is none. */
-    if (values->operand_count == 1 && !values->saved)
+    if (values->operand_count == operand && !values->saved)
         values->operands[values->operand_count++] = info->color;
     return OSDTEX_OK;
 }
@@ -227,10 +227,10 @@ list_inputs(const otx_material_flags *flags, otx_flag_values *values)
 
 osdtex_status
 otx_material_flags_take(
-    otx_session *session, otx_flag_values *values,
+    otx_session *session, otx_flag_values *values, int operand,
     osdtex_exemplar_options *options, otx_material_flags *out)
 {
-    osdtex_status status = take_found(session, values, options, out);
+    osdtex_status status = take_found(session, values, operand, options, out);
 
     if (status != OSDTEX_OK)
         return status;

@@ -21,9 +21,11 @@ typedef struct otx_material_flags
 
 /* Finds the files and puts them into `options`; those of the maps go into
  * `values` as inputs, and so does the colour where no EXEMPLAR is given. Says
- * what is wrong. */
+ * what is wrong.
+ *
+ *   operand  which one EXEMPLAR is, from 0 */
 osdtex_status otx_material_flags_take(
-    otx_session *session, otx_flag_values *values,
+    otx_session *session, otx_flag_values *values, int operand,
     osdtex_exemplar_options *options, otx_material_flags *out);
 
 /* Bit k: there is a map of kind k. */

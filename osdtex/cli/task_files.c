@@ -40,7 +40,7 @@ look_for_files(
         otx_saved_files_take(&silent, values) != OSDTEX_OK)
         values->of_saved.exemplars += values->of_saved.exemplars == 0;
     status = otx_material_flags_take(
-        &silent, values, &r->exemplar_options, &r->material);
+        &silent, values, 1, &r->exemplar_options, &r->material);
     if (status == OSDTEX_ERROR_ARGUMENT)
         return status;
     otx_also_flags_find(context, values, &r->also);

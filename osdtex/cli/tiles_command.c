@@ -1,6 +1,8 @@
 /* tiles_command.c -- osdtex tiles: a tiled texture from a picture. */
 #include "cli/guard.h"
 #include "cli/inputs.h"
+#include "cli/material_flags.h"
+#include "cli/saved_files.h"
 #include "cli/session.h"
 #include "cli/value.h"
 
@@ -11,13 +13,15 @@
 
 enum
 {
-    EDGES_MAX = 6
+    EDGES_MAX = 6,
+    NAME_BYTES = 4096
 };
 
 /* The job as the flags ask for it. */
 typedef struct job
 {
-    const otx_flag_values *values;
+    otx_flag_values values;
+    otx_material_flags material;
     const char *output;
     osdtex_exemplar_options exemplar_options;
     osdtex_cage_options cage_options;
@@ -46,9 +50,9 @@ parse_number(
 static bool
 parse_edges(job *j)
 {
-    for (int i = 0; i < j->values->edge_count; ++i)
+    for (int i = 0; i < j->values.edge_count; ++i)
     {
-        const char *text = j->values->edges[i];
+        const char *text = j->values.edges[i];
         double v[4] = {0.0, 0.0, 0.0, 0.0};
 
         if (i == EDGES_MAX ||
@@ -65,15 +69,15 @@ parse_edges(job *j)
         j->edges[i] = (osdtex_tiles_edge){v[0], v[1], v[2] * DEGREES, v[3]};
     }
     j->options.edges = j->edges;
-    j->options.edge_count = j->values->edge_count;
+    j->options.edge_count = j->values.edge_count;
     return true;
 }
 
 static bool
 parse_places(job *j)
 {
-    const char *corner = j->values->text[OTX_FLAG_CORNER_TEMPLATE];
-    const char *background = j->values->text[OTX_FLAG_BACKGROUND];
+    const char *corner = j->values.text[OTX_FLAG_CORNER_TEMPLATE];
+    const char *background = j->values.text[OTX_FLAG_BACKGROUND];
     double v[4];
 
     if (corner)
@@ -107,7 +111,7 @@ parse_places(job *j)
 static bool
 parse_blend(job *j)
 {
-    const char *text = j->values->text[OTX_FLAG_BLEND];
+    const char *text = j->values.text[OTX_FLAG_BLEND];
 
     j->options.ramp = text && strcmp(text, "ramp") == 0;
     if (!text || j->options.ramp || strcmp(text, "cut") == 0)
@@ -119,7 +123,7 @@ parse_blend(job *j)
 static bool
 parse_numbers(job *j)
 {
-    const otx_flag_values *values = j->values;
+    const otx_flag_values *values = &j->values;
     int64_t boundaries = 1, corners = 1, size = 0, gutter = 4, seed = 1;
 
     if (!parse_number(values, OTX_FLAG_BOUNDARIES, 1, 3, &boundaries) ||
@@ -141,7 +145,7 @@ parse_numbers(job *j)
 static bool
 parse_mesh(job *j)
 {
-    const otx_flag_values *values = j->values;
+    const otx_flag_values *values = &j->values;
     const char *scale = values->text[OTX_FLAG_SCALE];
     const char *tile_level = values->text[OTX_FLAG_TILE_LEVEL];
     int64_t level = OSDTEX_LEVEL_AUTO;
@@ -173,7 +177,7 @@ parse_mesh(job *j)
 static bool
 parse(job *j, const otx_flag_values *values)
 {
-    *j = (job){.values = values, .output = values->text[OTX_FLAG_OUTPUT]};
+    *j = (job){.values = *values, .output = values->text[OTX_FLAG_OUTPUT]};
     j->options = osdtex_tiles_options_default();
     if (!j->output || !otx_value_has_extension(j->output, ".exr"))
     {
@@ -225,7 +229,7 @@ read_mesh(
     otx_session *session, job *j, const osdtex_exemplar *exemplar,
     osdtex_cage **cage, osdtex_surface **out)
 {
-    const char *path = j->values->text[OTX_FLAG_FOR];
+    const char *path = j->values.text[OTX_FLAG_FOR];
     osdtex_status status;
 
     if (!path)
@@ -250,14 +254,14 @@ make(otx_session *session, job *j)
     osdtex_cage *cage = NULL;
     osdtex_tiles_info info;
     osdtex_status status = osdtex_exemplar_read(
-        context, j->values->operands[0], &j->exemplar_options, &exemplar);
+        context, j->values.operands[0], &j->exemplar_options, &exemplar);
 
     if (status == OSDTEX_OK)
         status = read_mesh(session, j, exemplar, &cage, &surface);
     otx_session_lap(session, "inputs read");
-    if (status == OSDTEX_OK && j->values->text[OTX_FLAG_DRY_RUN])
+    if (status == OSDTEX_OK && j->values.text[OTX_FLAG_DRY_RUN])
         otx_session_print(
-            "would make tiles of %s into %s\n", j->values->operands[0],
+            "would make tiles of %s into %s\n", j->values.operands[0],
             j->output);
     else if (status == OSDTEX_OK)
     {
@@ -274,6 +278,39 @@ make(otx_session *session, job *j)
     return status;
 }
 
+/* NAME.exr, and NAME_normal.exr and so on beside it. */
+static osdtex_status
+check_outputs(otx_session *session, const job *j)
+{
+    const uint32_t kinds = otx_material_flags_kinds(&j->material);
+    const int base = (int)strlen(j->output) - 4;
+    char names[OSDTEX_MAP_KINDS][NAME_BYTES];
+    otx_path_list outputs = {0};
+    osdtex_status status = OSDTEX_OK;
+
+    otx_path_list_add(&outputs, j->output);
+    for (osdtex_map_kind k = 0; k < OSDTEX_MAP_KINDS; ++k)
+    {
+        if (!(kinds & 1u << k))
+            continue;
+        if (snprintf(
+                names[k], NAME_BYTES, "%.*s_%s.exr", base, j->output,
+                osdtex_map_kind_name(k)) < NAME_BYTES)
+            otx_path_list_add(&outputs, names[k]);
+        else
+            status = OSDTEX_ERROR_ARGUMENT;
+    }
+    if (status != OSDTEX_OK)
+        otx_session_refuse("'%s' is too long a name", j->output);
+    else
+        status = otx_guard_check(session, &j->values, &outputs);
+    otx_path_list_free(&outputs);
+    return status == OSDTEX_OK
+               ? osdtex_outputs_mark(
+                     session->context, NULL, otx_saved_files_source(&j->values))
+               : status;
+}
+
 int
 otx_tiles_command_run(const otx_flag_values *values)
 {
@@ -285,8 +322,12 @@ otx_tiles_command_run(const otx_flag_values *values)
         return OTX_EXIT_USAGE;
     if (!otx_session_begin(&session, values))
         return session.exit_code;
-    status = otx_guard_check_flags(&session, values);
+    status = otx_material_flags_take(
+        &session, &j.values, 0, &j.exemplar_options, &j.material);
+    if (status == OSDTEX_OK)
+        status = check_outputs(&session, &j);
     if (status == OSDTEX_OK)
         status = make(&session, &j);
+    otx_material_flags_destroy(&j.material);
     return otx_session_end(&session, status);
 }

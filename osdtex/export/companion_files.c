@@ -107,9 +107,16 @@ make_levels(
     out->count = otx_pyramid_count(map->width, map->height);
     out->levels[0] = *map;
     /* A tiled texture has levels that keep its tiles apart. */
-    if (exemplar->tiles.cell > 0 && map->width == exemplar->linear.width)
+    if (exemplar->tiles.cell > 0)
+    {
+        const int32_t factor = map->width / exemplar->linear.width;
+        otx_tile_layout tiles = exemplar->tiles;
+
+        tiles.cell *= factor;
+        tiles.gutter *= factor;
         return otx_tile_layout_levels(
-            run, run->scratch, &exemplar->tiles, map, out->levels + 1);
+            run, run->scratch, &tiles, map, out->levels + 1);
+    }
     return otx_pyramid_build(run, run->scratch, map, out);
 }
 

@@ -79,8 +79,9 @@ otx_texel_pool_create(
         .compared = compared,
         .unit = unit_of(exemplar, compared),
         .colors = OTX_NEW(arena, float, room * 3),
+        .places = OTX_NEW(arena, otx_texel_place, extra + 1),
     };
-    if (!out->linear || !out->colors)
+    if (!out->linear || !out->colors || !out->places)
         return otx_fail_memory(run, STAGE);
     memcpy(
         out->linear, exemplar->linear.pixels, own * channels * sizeof(float));
@@ -161,6 +162,8 @@ otx_texel_pool_resample(
             const size_t n = (size_t)pool->count++;
             float color[3];
 
+            pool->places[n - (size_t)pool->width * (size_t)pool->height] =
+                (otx_texel_place){at, turn};
             otx_view_value(
                 otx_view_of(&e->linear, e->wrap_x, e->wrap_y), at,
                 pool->linear + n * (size_t)pool->channels);

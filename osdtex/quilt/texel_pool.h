@@ -16,6 +16,13 @@ enum
     OTX_TEXEL_NONE = -1
 };
 
+/* Where a texel that was resampled was taken. */
+typedef struct otx_texel_place
+{
+    otx_vec2 at;   /* its middle, texels of the exemplar */
+    otx_vec2 step; /* to the texel on its right */
+} otx_texel_place;
+
 typedef struct otx_texel_pool
 {
     const otx_exemplar *exemplar;
@@ -26,7 +33,9 @@ typedef struct otx_texel_pool
     const otx_image *compared; /* of the exemplar: what distances are taken
                                 * in */
     double unit; /* of what is compared, so that its contrast is that of Lab */
-    float *colors; /* [capacity * 3] of `compared`, times `unit` */
+    float *colors;           /* [capacity * 3] of `compared`, times `unit` */
+    otx_texel_place *places; /* [capacity less the exemplar's own] of the texels
+                              * behind those */
     /* Mean distance of two random texels: what a cut would cost that goes
      * anywhere. */
     double random_pair;

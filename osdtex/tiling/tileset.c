@@ -2,6 +2,7 @@
 #include "tiling/tileset.h"
 #include "tiling/ramp.h"
 #include "tiling/template.h"
+#include "tiling/tile_maps.h"
 #include "tiling/vertex_check.h"
 
 #include <math.h>
@@ -164,6 +165,21 @@ check_templates(
         }
     }
     return OSDTEX_OK;
+}
+
+/* Normals that are mixed have no frame to be turned by. */
+static otx_status
+check_maps(
+    otx_run *run, const otx_exemplar *exemplar,
+    const otx_tileset_options *options)
+{
+    if (!options->ramp || !otx_companions_are_there(&exemplar->companions))
+        return OSDTEX_OK;
+    return otx_fail(
+        run, OSDTEX_ERROR_ARGUMENT, STAGE,
+        otx_where_file(exemplar->source_path),
+        "cross-faded tiles mix pieces that lie at all turns, which maps of a "
+        "material cannot be; cut them ({blend} cut)");
 }
 
 otx_status
@@ -419,6 +435,7 @@ otx_tileset_make(
     kit.sizes = otx_tileset_sizes(&out->layout);
     kit.boundary_count = out->layout.boundaries;
     kit.corner_count = out->layout.corners;
+    OTX_TRY(check_maps(run, exemplar, options));
     OTX_TRY(check_templates(run, exemplar, options, &kit.sizes));
     OTX_TRY(create_picture(run, exemplar, out));
     OTX_TRY(open_arena(run, &own.arena));
@@ -444,6 +461,7 @@ otx_tileset_make(
     OTX_TRY(create_texels(&own, &out->linear, &f.texels));
     OTX_TRY(fill_all(run, &f));
     paint(&pool, &f.texels, &out->linear);
+    OTX_TRY(otx_tile_maps_make(run, &pool, &f.texels, &out->companions));
     sum_up(&kit, &f, out);
     OTX_TRY(judge(run, &looks, &f, out));
     otx_arena_release(run->scratch, mark);

@@ -38,7 +38,8 @@ typedef struct otx_tileset_options
 typedef struct otx_tileset
 {
     otx_tile_layout layout;
-    otx_image linear; /* the picture, level 0 */
+    otx_image linear;          /* the picture, level 0 */
+    otx_companions companions; /* the other maps, laid alike */
     int32_t tile_count;
     /* Mean distance along the cuts of corners, strips and insides. */
     double corner_seam, strip_seam, inner_seam;

@@ -136,6 +136,35 @@ class Sets(ProgramTest):
                 self.assertLess(abs(mean), 0.003)
                 self.assertLess(spread, 0.35 * own)
 
+    def test_tiles_of_a_set(self):
+        """The colour's tiles are those without maps, and each map is mapped
+        from its own."""
+        small = "--tile-size", "32", "--corners", "1"
+        for name, more in (("t", ("--material", WAVES)),
+                           ("u", (WAVES / "waves_color.png",))):
+            result = self.run_program(
+                "tiles", *more, "-o", self.folder / f"{name}.exr", *small)
+            self.assert_exit(result, 0)
+        self.assertEqual(self.picture("t.exr"), self.picture("u.exr"))
+        maps = ",".join(f"{k}={self.folder}/t_{k}.exr" for k in KINDS)
+        said = self.bake(self.folder / "t.exr", "--map", maps, "--method",
+                         "tile")
+        self.assertIn("height map", said)
+        for kind in KINDS:
+            self.assertTrue(
+                (self.folder / f"a_{kind}.1001.exr").exists(), kind)
+        result = self.run_program(
+            "tiles", "--material", WAVES, "-o", self.folder / "v.exr",
+            "--blend", "ramp", *small)
+        self.assert_error(result, 1, "cross-faded")
+        (self.folder / "x_height.exr").write_bytes(
+            (self.folder / "t_height.exr").read_bytes())
+        result = self.run_program(
+            "tiles", WAVES / "waves_color.png", "--map",
+            f"height={self.folder}/x_height.exr", "-o", self.folder / "x.exr",
+            *small)
+        self.assert_error(result, 1, "is an input and would be replaced")
+
     def statistics(self, *more):
         """Mean and spread of the red of the last colour, or what is left."""
         said = subprocess.run(
