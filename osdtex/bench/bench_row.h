@@ -33,6 +33,7 @@ extern const bench_row bench_row_write;
 extern const bench_row bench_row_exr;
 extern const bench_row bench_row_field;
 extern const bench_row bench_row_edit;
+extern const bench_row bench_row_bake;
 
 static inline int32_t
 bench_row_repeat(const bench_options *options, int32_t usual)
