@@ -2,8 +2,39 @@
 #include "bake/map_source.h"
 
 #include "mapping/map_textures.h"
+#include "mapping/source.h"
 
 #include <string.h>
+
+/* One channel of the maps of each exemplar. */
+static otx_status
+part_heights(
+    otx_run *run, const otx_map_textures *maps, int32_t count,
+    otx_map_source *out)
+{
+    const int32_t channel = maps->first[OTX_COMPANION_HEIGHT];
+
+    out->height_carry = maps->carry;
+    out->height_carry.normal = -1;
+    out->height_carry.height = 0;
+    for (int32_t k = 0; channel >= 0 && k < count; ++k)
+    {
+        const otx_texture *from = &maps->textures[k];
+        const otx_image *all = &from->pyramid.levels[0];
+        const size_t texels = (size_t)all->width * (size_t)all->height;
+        otx_image image;
+
+        OTX_TRY(otx_image_create(
+            run, run->arena, all->width, all->height, 1, &image));
+        for (size_t i = 0; i < texels; ++i)
+            image.pixels[i] =
+                all->pixels[i * (size_t)all->channels + (size_t)channel];
+        OTX_TRY(otx_texture_create(
+            run, run->arena, &image, from->wrap_x, from->wrap_y,
+            &out->heights[k]));
+    }
+    return OSDTEX_OK;
+}
 
 otx_status
 otx_map_source_create(
@@ -26,7 +57,7 @@ otx_map_source_create(
     memcpy(texels->textures, maps.textures, sizeof texels->textures);
     if (maps.channels > 0)
         texels->show.carry = &out->carry;
-    return OSDTEX_OK;
+    return part_heights(run, &maps, otx_source_count(mapping), out);
 }
 
 void

@@ -12,6 +12,9 @@ typedef struct otx_map_source
     /* First channel of a kind's values; -1: no exemplar has it. */
     int32_t first[OTX_COMPANION_COUNT];
     bool y_down; /* normals are written as DirectX has them */
+    /* Heights by themselves, for what looks up nothing else. */
+    otx_texture heights[OTX_EXEMPLARS_MAX];
+    otx_carry height_carry;
 } otx_map_source;
 
 /* Prepares the maps that any of the exemplars has, in run->arena: where another

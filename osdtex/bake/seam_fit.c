@@ -178,7 +178,7 @@ color_on_side(
     const otx_show_place place = {
         side->face, side->corners, at, side->dx, side->dy};
 
-    if (fit->welds)
+    if (fit->welds && side->layered)
     {
         *color = height_at(fit, &place);
         return;
@@ -193,6 +193,16 @@ color_on_side(
     otx_texture_probe(
         texture, &side->probes,
         otx_vec2_add(side->uv, otx_vec2_scale(t, side->along)), color);
+    if (fit->welds)
+    {
+        const otx_carry_matrix none = {1.0, 0.0, 0.0, 1.0};
+
+        otx_carry_values(
+            fit->show->carry, &none,
+            otx_carry_scale(fit->show->carry, side->corners, at),
+            side->exemplar, color);
+        return;
+    }
     /* Opaque, where only another exemplar has alpha. */
     for (int32_t c = texture->pyramid.levels[0].channels;
          c < fit->grid->channels; ++c)
@@ -242,6 +252,7 @@ set_edge(const otx_seam_fit *fit, int32_t rim, otx_seam_fit_edge *out)
     int32_t here[3], there[3];
 
     out->rim = rim;
+    out->known_at = -1.0;
     out->goes_on = other >= 0 || fit->welds;
     if (!out->goes_on)
         return;
@@ -568,7 +579,10 @@ fit_texel(
 
     if (!is_of_chart(fit, found, chart))
         return;
-    color_of(fit, edge, t, wanted);
+    if (!(edge->known_at == t))
+        color_of(fit, edge, t, edge->known);
+    edge->known_at = t;
+    memcpy(wanted, edge->known, sizeof wanted);
     if (fit->grid->owners[texel] < 0 && is_mirrored(at, foot, steps) &&
         depth >= (steps[0] != 0) + (steps[1] != 0) &&
         is_owned(fit, x + steps[0], y + steps[1], chart))

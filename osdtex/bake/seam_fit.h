@@ -53,6 +53,9 @@ typedef struct otx_seam_fit_edge
     otx_vec2 ends[2]; /* texels of the mip */
     double step;      /* the edge's share that the larger texel has */
     otx_seam_fit_side sides[2];
+    /* What it shows where it was asked last, as a share of the way. */
+    double known_at;
+    float known[OTX_IMAGE_MAX_CHANNELS];
 } otx_seam_fit_edge;
 
 /* The texel (x, y) of the raster, all channels: where a rim is within a texel

@@ -153,11 +153,10 @@ weld_heights(const otx_map_source *maps, const picture *p, otx_arena *scratch)
     const otx_sharpen_grid grid = {width, height, 1, heights, p->owners};
     otx_seam_fit_edge edge = {.rim = -1};
     otx_show_view show = maps->texels.show;
-    otx_carry carry = maps->carry;
     const otx_seam_fit fit = {
         .mapping = maps->texels.mapping,
         .show = &show,
-        .textures = maps->texels.textures,
+        .textures = maps->heights,
         .mip = block->mip,
         .raster = &block->raster,
         .near_rim = &block->near_rim,
@@ -168,8 +167,7 @@ weld_heights(const otx_map_source *maps, const picture *p, otx_arena *scratch)
 
     if (!heights)
         return false;
-    carry.normal = -1;
-    show.carry = &carry;
+    show.carry = &maps->height_carry;
     for (size_t i = 0; i < texels; ++i)
         heights[i] = from[i * (size_t)channels];
     for (int32_t y = block->below; y < block->below + block->height; ++y)

@@ -202,17 +202,19 @@ carry_over(
     const otx_show_term *term, float *values)
 {
     const otx_carry *carry = show->carry;
-    otx_carry_matrix m;
+    otx_carry_matrix m = {1.0, 0.0, 0.0, 1.0};
     otx_vec2 uvs[3];
 
-    for (int k = 0; k < 3; ++k)
+    /* Heights have no direction. */
+    for (int k = 0; carry->normal >= 0 && k < 3; ++k)
     {
         const double corner[3] = {k == 0, k == 1, k == 2};
 
         uvs[k] = otx_show_mix(show, place, term, corner);
     }
-    m = otx_carry_matrix_of(
-        carry, place->corners, uvs, term->exemplar, place->dx, place->dy);
+    if (carry->normal >= 0)
+        m = otx_carry_matrix_of(
+            carry, place->corners, uvs, term->exemplar, place->dx, place->dy);
     otx_carry_values(
         carry, &m, otx_carry_scale(carry, place->corners, place->at),
         term->exemplar, values);
