@@ -38,31 +38,46 @@ otx_show_mix(
     return sum;
 }
 
-/* One of those of a source field. Where it shows nothing, the face's own UVs
- * do. */
-static void
-look_at_field(
-    const otx_show_view *show, const otx_show_place *place, int32_t index,
-    otx_show_term *term)
+/* What a source field shows around a place. Where that is nothing, the face's
+ * own UVs are looked up. */
+typedef struct made_terms
 {
-    const otx_source_field *field = show->field;
     otx_source_term around[OTX_SOURCE_FIELD_TERMS];
+    bool nothing;
+} made_terms;
+
+static void
+look_around(
+    const otx_show_view *show, const otx_show_place *place, made_terms *out)
+{
     double sum = 0.0;
 
     otx_source_field_look(
-        field, place->face, place->corners, place->at, around);
+        show->field, place->face, place->corners, place->at, out->around);
     for (int i = 0; i < OTX_SOURCE_FIELD_TERMS; ++i)
-        sum += around[i].weight;
-    if (!(sum > 0.0))
+        sum += out->around[i].weight;
+    out->nothing = !(sum > 0.0);
+}
+
+static otx_show_term
+made_term(
+    const otx_show_view *show, const otx_show_place *place, int32_t exemplar,
+    const made_terms *made, int32_t index)
+{
+    const otx_source_field *field = show->field;
+    otx_show_term term = {.weight = index == 0, .exemplar = exemplar};
+
+    if (!made->nothing)
     {
-        term->weight = index == 0;
-        return;
+        term.weight = made->around[index].weight;
+        term.exemplar = field->charts[field->face_chart[place->face]].exemplar;
+        term.made = true;
+        for (int k = 0; k < 3; ++k)
+            term.uvs[k] = made->around[index].uvs[k];
     }
-    term->weight = around[index].weight;
-    term->exemplar = field->charts[field->face_chart[place->face]].exemplar;
-    term->made = true;
-    for (int k = 0; k < 3; ++k)
-        term->uvs[k] = around[index].uvs[k];
+    if (term.weight > 0.0)
+        term.uv = otx_show_mix(show, place, &term, place->at);
+    return term;
 }
 
 otx_show_term
@@ -77,8 +92,13 @@ otx_show_term_at(
     int32_t local[3];
 
     if (otx_show_is_made(show, place->face))
-        look_at_field(show, place, index, &term);
-    else if (otx_show_is_layered(show, place->face))
+    {
+        made_terms made;
+
+        look_around(show, place, &made);
+        return made_term(show, place, exemplar, &made, index);
+    }
+    if (otx_show_is_layered(show, place->face))
     {
         term.items = l->items + l->first[place->face] + (ptrdiff_t)index * size;
         for (int k = 0; k < 3; ++k)
@@ -281,16 +301,22 @@ otx_show_color(
 {
     const int32_t count = otx_show_term_count(show, place->face);
     const bool layered = otx_show_is_layered(show, place->face);
+    const bool is_made = otx_show_is_made(show, place->face);
     otx_show_sum sum = {{0.0}, 0.0};
+    made_terms made;
 
     if (layered && otx_show_layering(show, place->face) == OTX_LAYERING_OVER)
     {
         show_over(show, textures, place, exemplar, share, channels, color);
         return;
     }
+    if (is_made)
+        look_around(show, place, &made);
     for (int32_t i = 0; i < count; ++i)
     {
-        const otx_show_term term = otx_show_term_at(show, place, exemplar, i);
+        const otx_show_term term =
+            is_made ? made_term(show, place, exemplar, &made, i)
+                    : otx_show_term_at(show, place, exemplar, i);
 
         if (!(term.weight > 0.0))
             continue;
@@ -312,11 +338,17 @@ otx_show_lab(
 {
     const int32_t count = otx_show_term_count(show, place->face);
     const otx_layering layering = otx_show_layering(show, place->face);
+    const bool is_made = otx_show_is_made(show, place->face);
     otx_show_sum sum = {{0.0}, 0.0};
+    made_terms made;
 
+    if (is_made)
+        look_around(show, place, &made);
     for (int32_t i = 0; i < count; ++i)
     {
-        const otx_show_term term = otx_show_term_at(show, place, exemplar, i);
+        const otx_show_term term =
+            is_made ? made_term(show, place, exemplar, &made, i)
+                    : otx_show_term_at(show, place, exemplar, i);
         const otx_exemplar *from = &exemplars[term.exemplar];
         const otx_vec2 texel = {
             term.uv.x * from->lab.width, term.uv.y * from->lab.height};
