@@ -3,6 +3,7 @@
 #include "method/vertex/vertex.h"
 
 #include "method/density.h"
+#include "method/vertex/turk.h"
 #include "seam/unit.h"
 #include "territory/made.h"
 
@@ -16,7 +17,13 @@ enum
 
 static const char *const STARTS_NAMES[] = {"auto", "patches", "random", NULL};
 
+static const char *const MODES[] = {"auto", "charts", "paper", NULL};
+
 static const otx_option OPTIONS[] = {
+    {"mode", OTX_OPTION_CHOICE, offsetof(otx_vertex_settings, mode), 0, 0,
+     OTX_VERTEX_MODE_AUTO, MODES,
+     "How it is made: charts for places and angles of texels, all at once; "
+     "paper as published, vertex by vertex along the field"},
     {"start", OTX_OPTION_CHOICE, offsetof(otx_vertex_settings, start), 0, 0,
      OTX_VERTEX_START_AUTO, STARTS_NAMES,
      "What it begins with: patches of the method hierarchical, or places by "
@@ -43,6 +50,8 @@ resolve(void *settings, const otx_exemplar *exemplar, const otx_cage *cage)
     otx_vertex_settings *s = settings;
 
     (void)exemplar, (void)cage;
+    if (s->mode == OTX_VERTEX_MODE_AUTO)
+        s->mode = OTX_VERTEX_MODE_CHARTS;
     if (s->levels == 0)
         s->levels = LEVELS;
     if (s->starts == 0)
@@ -72,6 +81,8 @@ choose_start(otx_vertex *v)
     const bool directed =
         v->job->request->guide || v->analysis.kind != OTX_ANALYSIS_ISOTROPIC;
 
+    if (v->settings.mode == OTX_VERTEX_MODE_PAPER)
+        v->settings.start = OTX_VERTEX_START_RANDOM;
     if (v->settings.start != OTX_VERTEX_START_AUTO)
         return;
     v->settings.start =
@@ -93,7 +104,9 @@ make_guide(otx_vertex *v)
 
     if (request->guide)
         guide = *request->guide;
-    else if (v->analysis.kind != OTX_ANALYSIS_ISOTROPIC)
+    else if (
+        v->analysis.kind != OTX_ANALYSIS_ISOTROPIC ||
+        v->settings.mode == OTX_VERTEX_MODE_PAPER)
         OTX_TRY(otx_guide_make(
             v->run, v->mapping.surface, &v->analysis, request->constraints,
             &guide));
@@ -111,6 +124,14 @@ begin_empty(otx_vertex *v)
 
     OTX_TRY(otx_density_apply(
         v->run, v->job->surface, v->job->request->constraints, &surface));
+    if (v->settings.mode == OTX_VERTEX_MODE_PAPER && surface != v->job->surface)
+    {
+        otx_note(
+            v->run, OSDTEX_SEVERITY_WARNING, "map", OTX_NOWHERE,
+            "the published method has one size everywhere; the scales among "
+            "the constraints are left out");
+        surface = v->job->surface;
+    }
     leaf = otx_surface_leaf(surface);
     v->mapping = (otx_mapping){
         .surface = surface,
@@ -219,7 +240,8 @@ map(const otx_job *job, otx_mapping *out)
     otx_figures_stage(job->figures, "charts");
     OTX_TRY(lay_out(v));
     otx_figures_stage(job->figures, "synth");
-    OTX_TRY(make(v));
+    OTX_TRY(
+        v->settings.mode == OTX_VERTEX_MODE_PAPER ? otx_turk_make(v) : make(v));
     otx_figures_stage(job->figures, "compose");
     OTX_TRY(otx_made_hand_out(&v->set, &v->mapping.field));
     if (v->settings.start == OTX_VERTEX_START_RANDOM)

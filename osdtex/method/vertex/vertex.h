@@ -13,9 +13,17 @@ typedef enum otx_vertex_start
     OTX_VERTEX_START_RANDOM   /* places by chance */
 } otx_vertex_start;
 
+typedef enum otx_vertex_mode
+{
+    OTX_VERTEX_MODE_AUTO,
+    OTX_VERTEX_MODE_CHARTS, /* texels of charts, by room synth */
+    OTX_VERTEX_MODE_PAPER   /* vertices of a dense mesh, as published */
+} otx_vertex_mode;
+
 typedef struct otx_vertex_settings
 {
     double tolerance; /* of the field, degrees */
+    int32_t mode;
     int32_t start;
     int32_t levels; /* 0 automatic */
     int32_t starts; /* of the coarsest level; 0 automatic */
