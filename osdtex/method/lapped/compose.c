@@ -16,22 +16,90 @@ static const double SEEN = 0.01, TOUCHED = 0.02;
 typedef struct entry
 {
     int32_t paste;
-    int32_t slot; /* of the face in its chart */
-    float seen;   /* its largest weight */
-    float share;  /* mean of its weights */
+    int32_t piece; /* of the paste */
+    int32_t slot;  /* of the face in its chart */
+    float seen;    /* its largest weight */
+    float share;   /* mean of its weights */
     bool touches;
 } entry;
 
 typedef struct composition
 {
     const otx_lapped *l;
-    int64_t *first;  /* [leaf face_count + 1] */
-    entry *entries;  /* of a face, bottom first */
-    int32_t *bottom; /* [leaf face_count] the entry that is opaque there */
-    int32_t *top;    /* [leaf face_count] the entry that is seen most */
+    int64_t *first;     /* [leaf face_count + 1] */
+    entry *entries;     /* of a face, bottom first */
+    int32_t *bottom;    /* [leaf face_count] the entry that is opaque there */
+    int32_t *top;       /* [leaf face_count] the entry that is seen most */
+    int32_t *fragments; /* [paste_count + 1] the first of each paste */
 } composition;
 
 /* ---- lists ---- */
+
+/* Whether a piece may reach a face of its paste's chart: some of the circle
+ * around it is in the box around the face. */
+static bool
+meets(
+    const otx_lapped_paste *paste, int32_t slot, const otx_lapped_piece *piece)
+{
+    const otx_lapped_chart *c = &paste->chart;
+    const double reach = (double)piece->cut->most;
+    otx_vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+
+    for (int32_t k = c->first[slot]; k < c->first[slot + 1]; ++k)
+    {
+        const otx_vec2 at = otx_vec2_sub(c->flat[c->corners[k]], piece->middle);
+
+        low = (otx_vec2){fmin(low.x, at.x), fmin(low.y, at.y)};
+        high = (otx_vec2){fmax(high.x, at.x), fmax(high.y, at.y)};
+    }
+    return otx_vec2_length((otx_vec2){
+               fmax(fmax(low.x, -high.x), 0.0),
+               fmax(fmax(low.y, -high.y), 0.0)}) < reach;
+}
+
+/* Calls for every piece on every face, bottom first: counts, or puts. */
+static void
+visit(composition *c, int64_t *at)
+{
+    const otx_lapped *l = c->l;
+
+    for (int32_t p = 0; p < l->paste_count; ++p)
+        for (int32_t i = 0; i < l->pastes[p].chart.face_count; ++i)
+            for (int32_t k = 0; k < l->pastes[p].piece_count; ++k)
+            {
+                const int32_t face = l->pastes[p].chart.faces[i];
+
+                if (!meets(&l->pastes[p], i, &l->pastes[p].pieces[k]))
+                    continue;
+                if (at)
+                    c->entries[at[face]++] =
+                        (entry){.paste = p, .piece = k, .slot = i};
+                else
+                    ++c->first[face + 1];
+            }
+}
+
+static const otx_lapped_piece *
+piece_of(const otx_lapped *l, const entry *e)
+{
+    return &l->pastes[e->paste].pieces[e->piece];
+}
+
+/* Higher pieces over lower ones; those of one height stay as they are. */
+static void
+order(const otx_lapped *l, entry *list, int32_t count)
+{
+    for (int32_t i = 1; i < count; ++i)
+    {
+        const entry e = list[i];
+        const double height = piece_of(l, &e)->height;
+        int32_t k = i;
+
+        for (; k > 0 && piece_of(l, &list[k - 1])->height > height; --k)
+            list[k] = list[k - 1];
+        list[k] = e;
+    }
+}
 
 static otx_status
 list_pastes(composition *c)
@@ -45,18 +113,17 @@ list_pastes(composition *c)
     c->bottom = OTX_ZNEW(run->scratch, int32_t, n);
     c->top = OTX_ZNEW(run->scratch, int32_t, n);
     OTX_TRY(otx_run_ok(run));
-    for (int32_t p = 0; p < l->paste_count; ++p)
-        for (int32_t i = 0; i < l->pastes[p].chart.face_count; ++i)
-            ++c->first[l->pastes[p].chart.faces[i] + 1];
+    visit(c, NULL);
     for (int32_t f = 0; f < n; ++f)
         c->first[f + 1] += c->first[f];
     c->entries = OTX_ZNEW(run->scratch, entry, c->first[n]);
     OTX_TRY(otx_run_ok(run));
     memcpy(at, c->first, ((size_t)n + 1) * sizeof *at);
-    for (int32_t p = 0; p < l->paste_count; ++p)
-        for (int32_t i = 0; i < l->pastes[p].chart.face_count; ++i)
-            c->entries[at[l->pastes[p].chart.faces[i]]++] =
-                (entry){.paste = p, .slot = i};
+    visit(c, at);
+    for (int32_t f = 0; f < n; ++f)
+        order(
+            l, c->entries + c->first[f],
+            (int32_t)(c->first[f + 1] - c->first[f]));
     return OSDTEX_OK;
 }
 
@@ -90,7 +157,8 @@ weigh(
             at, otx_vec2_scale(sample->at[k], paste->chart.flat[v]));
         *rim += sample->at[k] * (double)paste->chart.rim[v];
     }
-    *mask = otx_radial_alpha(paste->cut, at, 0.0);
+    *mask = otx_radial_alpha(
+        piece_of(l, e)->cut, otx_vec2_sub(at, piece_of(l, e)->middle), 0.0);
 }
 
 /* Light goes down through the pastes; what none has stopped comes from the
@@ -239,36 +307,61 @@ put_items(const composition *c, int32_t face, otx_lookup *items)
             put_uv(l, &list[i], face, k, items->uv);
             items->weight =
                 opaque ? 1.0f : l->pastes[list[i].paste].chart.rim[v];
-            items->fragment = opaque ? l->paste_count : list[i].paste;
+            items->fragment = opaque
+                                  ? c->fragments[l->paste_count]
+                                  : c->fragments[list[i].paste] + list[i].piece;
         }
     }
 }
 
-/* Masks of the pastes, and an opaque one behind them. */
-static otx_status
-put_fragments(const otx_lapped *l, const int32_t *number, otx_lookups *lookups)
+static otx_fragment
+fragment_of(
+    const otx_lapped *l, const otx_lapped_paste *paste,
+    const otx_lapped_piece *piece, int32_t patch)
 {
-    otx_fragment *list =
-        OTX_ZNEW(l->run->arena, otx_fragment, (int64_t)l->paste_count + 1);
+    const double w = l->exemplar->match.width;
+    const double h = l->exemplar->match.height;
+    const otx_vec2 origin = otx_vec2_add(paste->centre, piece->middle);
+
+    return (otx_fragment){
+        .patch = patch,
+        .outline = piece->cut,
+        .frame = {
+            (float)(origin.x / w), (float)(origin.y / h), (float)(1.0 / w),
+            (float)(1.0 / h)}};
+}
+
+/* Outlines of the pieces, and an opaque one behind them. */
+static otx_status
+put_fragments(const composition *c, const int32_t *number, otx_lookups *lookups)
+{
+    const otx_lapped *l = c->l;
+    const int32_t count = c->fragments[l->paste_count] + 1;
+    otx_fragment *list = OTX_ZNEW(l->run->arena, otx_fragment, count);
 
     if (!list)
         return otx_fail_memory(l->run, "map");
     for (int32_t p = 0; p < l->paste_count; ++p)
-    {
-        const otx_lapped_paste *paste = &l->pastes[p];
-        const double w = l->exemplar->match.width;
-        const double h = l->exemplar->match.height;
-
-        list[p] = (otx_fragment){
-            .patch = number[p],
-            .outline = paste->cut,
-            .frame = {
-                (float)(paste->centre.x / w), (float)(paste->centre.y / h),
-                (float)(1.0 / w), (float)(1.0 / h)}};
-    }
-    list[l->paste_count] = (otx_fragment){.patch = -1};
+        for (int32_t k = 0; k < l->pastes[p].piece_count; ++k)
+            list[c->fragments[p] + k] = fragment_of(
+                l, &l->pastes[p], &l->pastes[p].pieces[k], number[p]);
+    list[count - 1] = (otx_fragment){.patch = -1};
     lookups->fragments = list;
-    lookups->fragment_count = l->paste_count + 1;
+    lookups->fragment_count = count;
+    return OSDTEX_OK;
+}
+
+/* Pieces before those of each paste. */
+static otx_status
+count_fragments(composition *c)
+{
+    const otx_lapped *l = c->l;
+
+    c->fragments = OTX_ZNEW(l->run->scratch, int32_t, l->paste_count + 1);
+    if (!c->fragments)
+        return otx_fail_memory(l->run, "map");
+    for (int32_t p = 0; p < l->paste_count; ++p)
+        c->fragments[p + 1] = c->fragments[p] + l->pastes[p].piece_count;
     return OSDTEX_OK;
 }
 
@@ -301,7 +394,7 @@ put_lookups(const composition *c, const int32_t *number, otx_mapping *out)
     lookups->items = items;
     lookups->layering = OTX_LAYERING_OVER;
     out->lookups = lookups;
-    return put_fragments(l, number, lookups);
+    return put_fragments(c, number, lookups);
 }
 
 /* Numbers the pastes that are seen most on some face, in their order. */
@@ -351,11 +444,12 @@ put_figures(const composition *c)
         for (int64_t i = c->first[f]; i < c->first[f + 1]; ++i)
         {
             const entry *e = &c->entries[i];
-            const otx_lapped_chart *chart = &l->pastes[e->paste].chart;
+            const otx_lapped_paste *paste = &l->pastes[e->paste];
+            const otx_lapped_chart *chart = &paste->chart;
             const otx_rigid_mesh mesh = {
-                chart->face_count, chart->vert_count,  chart->first,
-                chart->corners,    chart->verts,       l->surface->points,
-                l->texels,         l->surface->density};
+                chart->face_count,       chart->vert_count,  chart->first,
+                chart->corners,          chart->verts,       l->surface->points,
+                l->texels / paste->size, l->surface->density};
 
             touched += e->touches ? a : 0.0;
             if ((double)e->seen > SEEN)
@@ -394,6 +488,7 @@ otx_lapped_compose(otx_lapped *l, otx_mapping *out)
     };
     OTX_TRY(otx_run_ok(l->run));
     OTX_TRY(list_pastes(&c));
+    OTX_TRY(count_fragments(&c));
     OTX_TRY(otx_loop_result(
         l->run, "map",
         otx_pool_for(l->run->pool, l->leaf->face_count, look_at_face, &c)));

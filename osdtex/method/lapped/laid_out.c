@@ -128,3 +128,19 @@ otx_lapped_keep(
         .rim = copy(arena, from->rim, verts, sizeof *from->rim)};
     return otx_arena_failed(arena) ? OSDTEX_ERROR_MEMORY : OSDTEX_OK;
 }
+
+double
+otx_lapped_alpha(const otx_lapped_paste *paste, otx_vec2 at)
+{
+    double alpha = 0.0;
+
+    for (int32_t i = 0; i < paste->piece_count && alpha < 1.0; ++i)
+    {
+        const otx_lapped_piece *piece = &paste->pieces[i];
+
+        alpha = fmax(
+            alpha,
+            otx_radial_alpha(piece->cut, otx_vec2_sub(at, piece->middle), 0.0));
+    }
+    return alpha;
+}

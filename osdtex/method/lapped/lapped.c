@@ -3,6 +3,7 @@
 #include "method/lapped/lapped.h"
 
 #include "method/density.h"
+#include "method/lapped/whole.h"
 #include "seam/unit.h"
 
 /* From sample to sample of the coverage, texels. */
@@ -13,15 +14,16 @@ static const double PIECES_MOST = 2e5, FACE_MOST = 64.0;
 static const double RADIUS_LEAST = 32.0;
 static const double TAU = 6.283185307179586;
 
-static const char *const MODES[] = {"auto", "splotch", "paper", NULL};
+static const char *const MODES[] = {
+    "auto", "splotch", "clumps", "packing", "ordered", "paper", NULL};
 static const char *const OUTLINES[] = {"splotch", "circle", NULL};
 
 static const otx_option OPTIONS[] = {
     {"mode", OTX_OPTION_CHOICE, offsetof(otx_lapped_settings, mode), 0, 0,
      OTX_LAPPED_AUTO, MODES,
-     "How pieces are cut and laid: splotch for pictures without features; "
-     "paper "
-     "as published"},
+     "How pieces are cut and laid: splotch for pictures without features; of "
+     "whole features clumps for leaves, packing for stones, ordered for "
+     "scales; paper as published"},
     {"outline", OTX_OPTION_CHOICE, offsetof(otx_lapped_settings, outline), 0, 0,
      OTX_LAPPED_OUTLINE_SPLOTCH, OUTLINES, "Shape of pieces that have none"},
     {"radius", OTX_OPTION_REAL, offsetof(otx_lapped_settings, radius), 0, 16384,
@@ -53,8 +55,6 @@ resolve(void *settings, const otx_exemplar *e, const otx_cage *cage)
 {
     otx_lapped_settings *s = settings;
     (void)cage;
-    if (s->mode == OTX_LAPPED_AUTO)
-        s->mode = OTX_LAPPED_SPLOTCH;
     if (s->radius > 0.0)
         s->radius = fmin(s->radius, largest_radius(e));
     if (s->feather < 0.0)
@@ -81,11 +81,6 @@ make_guide(otx_lapped *l)
     const otx_map_request *request = l->job->request;
     otx_analysis a;
 
-    if (request->guide)
-    {
-        l->guide = *request->guide;
-        return OSDTEX_OK;
-    }
     if (request->analysis)
         a = *request->analysis;
     else
@@ -94,7 +89,14 @@ make_guide(otx_lapped *l)
             &a));
     if (l->job->figures)
         l->job->figures->classes[0] = otx_analysis_name(a.kind);
-    if (a.kind == OTX_ANALYSIS_ISOTROPIC)
+    OTX_TRY(otx_lapped_find_features(l, a.kind));
+    if (request->guide)
+    {
+        l->guide = *request->guide;
+        return OSDTEX_OK;
+    }
+    if (a.kind == OTX_ANALYSIS_ISOTROPIC &&
+        l->settings.mode != OTX_LAPPED_ORDERED)
         return OSDTEX_OK;
     return otx_guide_make(
         l->run, l->surface, &a, request->constraints, &l->guide);

@@ -8,6 +8,7 @@
 #ifndef OTX_METHOD_LAPPED_LAPPED_H
 #define OTX_METHOD_LAPPED_LAPPED_H
 
+#include "analysis/feature.h"
 #include "field/connection.h"
 #include "method/lapped/samples.h"
 #include "method/method.h"
@@ -16,6 +17,9 @@ typedef enum otx_lapped_mode
 {
     OTX_LAPPED_AUTO,
     OTX_LAPPED_SPLOTCH, /* pieces that are cut where they differ least */
+    OTX_LAPPED_CLUMPS,  /* whole features over one another by chance: leaves */
+    OTX_LAPPED_PACKING, /* whole features beside one another: stones */
+    OTX_LAPPED_ORDERED, /* whole features, upper ones over lower ones: scales */
     OTX_LAPPED_PAPER    /* as published: ramps, places by chance */
 } otx_lapped_mode;
 
@@ -50,11 +54,22 @@ typedef struct otx_lapped_chart
                        * 1 away from it */
 } otx_lapped_chart;
 
+/* Something that a paste shows. */
+typedef struct otx_lapped_piece
+{
+    otx_vec2 middle; /* in the chart's plane */
+    otx_radial *cut; /* what is seen, texels about the middle */
+    double height;   /* higher ones lie over lower ones, else later ones
+                      * over earlier ones */
+} otx_lapped_piece;
+
 typedef struct otx_lapped_paste
 {
     otx_lapped_chart chart;
     otx_vec2 centre; /* of the texture patch in the exemplar, texels */
-    otx_radial *cut; /* what of it is seen, texels about its middle */
+    double size;     /* of what it shows: 1 as large as the exemplar has it */
+    otx_lapped_piece *pieces;
+    int32_t piece_count;
 } otx_lapped_paste;
 
 typedef enum otx_lapped_outline
@@ -88,7 +103,9 @@ typedef struct otx_lapped
     otx_connection connection;
     otx_guide guide; /* without directions: those of seeds are carried on */
     otx_lapped_settings settings;
-    double texels; /* per scene unit */
+    otx_features features;    /* none: pieces are splotches */
+    otx_radial *feature_cuts; /* [features.count] */
+    double texels;            /* per scene unit */
     otx_samples samples;
     otx_lapped_paste *pastes; /* [paste_count], bottom first */
     int32_t paste_count;
@@ -161,6 +178,9 @@ otx_lapped_trim(otx_arena *arena, double reach, otx_lapped_chart *chart);
 /* A copy in memory of its own size. MEMORY, without a finding. */
 otx_status otx_lapped_keep(
     otx_arena *arena, const otx_lapped_chart *from, otx_lapped_chart *out);
+
+/* What the pieces of a paste leave of it at a place of its plane. */
+double otx_lapped_alpha(const otx_lapped_paste *paste, otx_vec2 at);
 
 /* Marks the samples that a paste covers, and keeps what it shows there. Returns
  * how many it is the first to cover. */

@@ -4,6 +4,7 @@
  * pasted by several threads, and come out the same by one. */
 #include "base/random.h"
 #include "method/lapped/radial_cut.h"
+#include "method/lapped/whole.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,17 +20,32 @@ enum
 
 enum
 {
-    WAVES = 5,   /* around a splotch: 2 to WAVES + 1 bulges */
-    BATCH = 8,   /* pieces of a round, at most */
-    SCAN = 4096, /* faces that are looked through for them */
-    PASSES = 3
+    WAVES = 5,  /* around a splotch: 2 to WAVES + 1 bulges */
+    BATCH = 8,  /* pieces of a round, at most */
+    SCAN = 4096 /* faces that are looked through for them */
 };
 
 static const double TAU = 6.283185307179586;
 static const double BULGE = 0.09; /* of the radius, each wave */
-/* How near to the middle of an earlier piece a new one may begin, in radii:
- * first where none has reached, at last anywhere. */
-static const double NEAR[PASSES] = {1.3, 0.8, 0.0};
+/* How the faces are gone through. */
+typedef struct pass
+{
+    double near;   /* how near to the middle of an earlier paste a new one may
+                    * begin, in radii */
+    double size;   /* of features */
+    int32_t tries; /* at a face; 0: until it is covered */
+} pass;
+
+/* First where no piece has reached, at last anywhere. */
+static const pass SPLOTCHES[] = {
+    {1.3, 1, 0}, {0.8, 1, 0}, {0, 1, 0}, {-1, 0, 0}};
+static const pass CLUMPS[] = {{0.8, 1, 1}, {0, 1, 2}, {-1, 0, 0}};
+static const pass PACKING[] = {
+    {0.8, 1, 1}, {0, 1, 1}, {0, 0.65, 1}, {-1, 0, 0}};
+/* Of its samples, what is open where a feature may begin. */
+static const double ROOM = 0.3;
+/* Below all features. */
+static const double BENEATH = -1e30;
 /* From middle to middle of the pieces of a round, in radii. */
 static const double APART = 2.6;
 
@@ -44,7 +60,8 @@ typedef struct slot
     otx_lapped_seed seed;
     otx_radial outline;
     otx_lapped_paste paste; /* in `arena` */
-    otx_radial cut;
+    otx_radial cut;         /* and the one piece of a splotch */
+    otx_lapped_piece piece;
     bool apart;
     int64_t fresh;
 } slot;
@@ -57,6 +74,12 @@ typedef struct pasting
     int32_t order_count;
     float *near;    /* [leaf face_count] to the nearest middle, radii */
     int32_t *taken; /* [leaf face_count] the last try that has the face */
+    uint8_t *tried; /* [leaf face_count] times, in this pass */
+    int32_t *uses;  /* [features.count] in pastes */
+    const pass *pass;
+    double reach;   /* of charts, texels; 0: of their outline */
+    double radius;  /* that `near` is in, texels */
+    double spacing; /* of tries, texels */
     slot slots[BATCH];
     int32_t slot_count;
     uint64_t tries;
@@ -208,7 +231,8 @@ is_apart(const pasting *p)
 {
     const slot *s = &p->slots[p->slot_count];
     const double texels = otx_lapped_texels(p->l, s->seed.face);
-    const double apart = APART * p->l->settings.radius;
+    const double apart =
+        fmax(APART * p->radius, 2.0 * p->reach * p->pass->size);
 
     for (int32_t i = 0; i < p->slot_count; ++i)
         if (otx_vec3_length(otx_vec3_sub(s->point, p->slots[i].point)) *
@@ -218,10 +242,16 @@ is_apart(const pasting *p)
     return true;
 }
 
+static bool
+has_room(const otx_lapped *l, int32_t face)
+{
+    return l->samples.open[face] > ROOM * otx_samples_count(&l->samples, face);
+}
+
 /* Chooses the pieces of a round from the faces after the first `begin`; moves
  * that beyond those that are done with. */
 static void
-choose_seeds(pasting *p, double near, int32_t *begin)
+choose_seeds(pasting *p, int32_t *begin)
 {
     const otx_lapped *l = p->l;
     bool all_done = true;
@@ -232,7 +262,10 @@ choose_seeds(pasting *p, double near, int32_t *begin)
     {
         const int32_t face = p->order[i];
         const bool done =
-            l->samples.open[face] == 0 || (double)p->near[face] < near;
+            l->samples.open[face] == 0 ||
+            (double)p->near[face] < p->pass->near ||
+            (p->pass->tries > 0 &&
+             (p->tried[face] >= p->pass->tries || !has_room(l, face)));
 
         all_done = all_done && done;
         *begin += all_done;
@@ -254,11 +287,12 @@ unfold(void *context, int64_t index, otx_worker *worker)
     pasting *p = context;
     slot *s = &p->slots[index];
     const otx_lapped_room room = {&p->spaces[worker->index], s->arena, worker};
+    double reach;
 
     s->outline = make_outline(p->l, s->number);
-    OTX_TRY(otx_lapped_unfold(
-        p->l, &room, &s->seed, (double)s->outline.most, &s->paste.chart));
-    return otx_lapped_trim(s->arena, (double)s->outline.most, &s->paste.chart);
+    reach = p->reach > 0.0 ? p->reach * p->pass->size : (double)s->outline.most;
+    OTX_TRY(otx_lapped_unfold(p->l, &room, &s->seed, reach, &s->paste.chart));
+    return otx_lapped_trim(s->arena, reach, &s->paste.chart);
 }
 
 /* The pieces of a round have no face in common; those that have are tried
@@ -280,23 +314,58 @@ part_slots(pasting *p)
     }
 }
 
+/* A splotch is cut where it differs least from what lies there. */
 static otx_status
-cut(void *context, int64_t index, otx_worker *worker)
+lay_splotch(const pasting *p, const otx_lapped_room *room, slot *s)
+{
+    const otx_lapped *l = p->l;
+
+    s->cut = s->outline;
+    s->piece = (otx_lapped_piece){{0, 0}, &s->cut, BENEATH};
+    s->paste.size = 1.0;
+    s->paste.pieces = &s->piece;
+    s->paste.piece_count = 1;
+    s->paste.centre = choose_centre(l, s->number, (double)s->outline.most);
+    if (l->settings.mode != OTX_LAPPED_PAPER)
+        OTX_TRY(otx_lapped_cut(l, s->arena, &s->outline, &s->paste, &s->cut));
+    OTX_TRY(otx_lapped_trim(s->arena, (double)s->cut.most, &s->paste.chart));
+    return otx_lapped_rim(l, room, &s->cut, &s->paste.chart);
+}
+
+/* Features are whole in their chart: its border cuts none. */
+static otx_status
+lay_features(const pasting *p, slot *s)
+{
+    const otx_lapped_try attempt = {
+        s->number, p->pass->size,
+        s->point.y * otx_lapped_texels(p->l, s->seed.face), p->uses};
+    otx_lapped_chart *c = &s->paste.chart;
+
+    OTX_TRY(otx_lapped_choose_features(p->l, s->arena, &attempt, &s->paste));
+    c->rim = OTX_NEW(s->arena, float, c->vert_count);
+    if (!c->rim)
+        return OSDTEX_ERROR_MEMORY;
+    for (int32_t v = 0; v < c->vert_count; ++v)
+        c->rim[v] = 1.0f;
+    return OSDTEX_OK;
+}
+
+static otx_status
+lay(void *context, int64_t index, otx_worker *worker)
 {
     pasting *p = context;
     slot *s = &p->slots[index];
-    const otx_lapped *l = p->l;
     const otx_lapped_room room = {&p->spaces[worker->index], s->arena, worker};
 
     if (!s->apart)
         return OSDTEX_OK;
-    s->cut = s->outline;
-    s->paste.cut = &s->cut;
-    s->paste.centre = choose_centre(l, s->number, (double)s->outline.most);
-    if (l->settings.mode != OTX_LAPPED_PAPER)
-        OTX_TRY(otx_lapped_cut(l, s->arena, &s->outline, &s->paste));
-    OTX_TRY(otx_lapped_trim(s->arena, (double)s->cut.most, &s->paste.chart));
-    OTX_TRY(otx_lapped_rim(l, &room, &s->cut, &s->paste.chart));
+    s->fresh = 0;
+    if (p->reach > 0.0)
+        OTX_TRY(lay_features(p, s));
+    else
+        OTX_TRY(lay_splotch(p, &room, s));
+    if (s->paste.piece_count == 0)
+        return OSDTEX_OK;
     s->fresh = otx_lapped_mark(p->l, &s->paste);
     /* Its own seed, whatever comes of rounding. */
     s->fresh += otx_samples_set(&p->l->samples, s->seed.face, s->sample);
@@ -336,11 +405,51 @@ come_near(pasting *p, const otx_lapped_chart *c)
 
         for (int32_t k = 0; k < size; ++k)
             sum = otx_vec2_add(sum, c->flat[c->corners[first + k]]);
-        *near = fminf(
-            *near,
-            (float)(otx_vec2_length(sum) / (size * p->l->settings.radius)));
+        *near =
+            fminf(*near, (float)(otx_vec2_length(sum) / (size * p->radius)));
     }
     p->near[c->faces[0]] = 0.0f;
+}
+
+/* Outlines of features are there already; that of a splotch is its own. */
+static otx_status
+keep_pieces(pasting *p, const slot *s, otx_lapped_paste *paste)
+{
+    otx_arena *arena = p->l->run->arena;
+    const int32_t count = s->paste.piece_count;
+    otx_radial *cut = OTX_NEW(arena, otx_radial, 1);
+
+    paste->pieces = OTX_NEW(arena, otx_lapped_piece, count);
+    if (!cut || !paste->pieces)
+        return otx_fail_memory(p->l->run, "map");
+    paste->piece_count = count;
+    memcpy(
+        paste->pieces, s->paste.pieces, (size_t)count * sizeof *paste->pieces);
+    for (int32_t i = 0; i < count; ++i)
+        if (paste->pieces[i].cut == &s->cut)
+        {
+            *cut = s->cut;
+            paste->pieces[i].cut = cut;
+        }
+        else
+            ++p->uses[paste->pieces[i].cut - p->l->feature_cuts];
+    return OSDTEX_OK;
+}
+
+/* Counts a try for the faces around its seed. */
+static void
+count_try(pasting *p, const slot *s)
+{
+    const otx_lapped_chart *c = &s->paste.chart;
+
+    for (int32_t i = 0; i < c->face_count; ++i)
+    {
+        const int32_t face = c->faces[i];
+        const otx_vec2 at = c->flat[c->corners[c->first[i]]];
+
+        if (i == 0 || otx_vec2_length(at) < p->spacing)
+            p->tried[face] += p->tried[face] < 255;
+    }
 }
 
 static otx_status
@@ -349,14 +458,16 @@ keep_slot(pasting *p, const slot *s)
     otx_lapped *l = p->l;
     otx_lapped_paste *paste = NULL;
 
+    count_try(p, s);
+    if (s->paste.piece_count == 0)
+        return OSDTEX_OK;
     OTX_TRY(next_paste(l, &paste));
     paste->centre = s->paste.centre;
-    paste->cut = OTX_NEW(l->run->arena, otx_radial, 1);
-    if (!paste->cut ||
-        otx_lapped_keep(l->run->arena, &s->paste.chart, &paste->chart) !=
-            OSDTEX_OK)
+    paste->size = s->paste.size;
+    if (otx_lapped_keep(l->run->arena, &s->paste.chart, &paste->chart) !=
+        OSDTEX_OK)
         return otx_fail_memory(l->run, "map");
-    *paste->cut = s->cut;
+    OTX_TRY(keep_pieces(p, s, paste));
     l->samples.left -= s->fresh;
     come_near(p, &paste->chart);
     return OSDTEX_OK;
@@ -373,7 +484,7 @@ run_round(pasting *p)
         run, "map", otx_pool_for(run->pool, p->slot_count, unfold, p)));
     part_slots(p);
     OTX_TRY(otx_loop_result(
-        run, "map", otx_pool_for(run->pool, p->slot_count, cut, p)));
+        run, "map", otx_pool_for(run->pool, p->slot_count, lay, p)));
     for (int32_t i = 0; i < p->slot_count; ++i)
         if (p->slots[i].apart)
             OTX_TRY(keep_slot(p, &p->slots[i]));
@@ -440,32 +551,60 @@ begin(pasting *p)
     OTX_TRY(order_faces(p));
     p->near = OTX_NEW(p->l->run->scratch, float, n);
     p->taken = OTX_NEW(p->l->run->scratch, int32_t, n);
+    p->tried = OTX_NEW(p->l->run->scratch, uint8_t, n);
+    p->uses = OTX_ZNEW(p->l->run->scratch, int32_t, p->l->features.count + 1);
     OTX_TRY(otx_run_ok(p->l->run));
-    for (int32_t f = 0; f < n; ++f)
+    memset(p->taken, -1, (size_t)n * sizeof *p->taken);
+    return OSDTEX_OK;
+}
+
+static otx_status
+run_pass(pasting *p)
+{
+    const double all = (double)p->l->samples.first[p->l->leaf->face_count];
+    int32_t at = 0;
+
+    memset(p->tried, 0, (size_t)p->l->leaf->face_count);
+    while (at < p->order_count)
     {
-        p->near[f] = INFINITY;
-        p->taken[f] = -1;
+        choose_seeds(p, &at);
+        OTX_TRY(run_round(p));
+        OTX_TRY(otx_progress(
+            p->l->run, "paste", 1.0 - (double)p->l->samples.left / all));
     }
+    return OSDTEX_OK;
+}
+
+/* Passes until one that has no size. */
+static otx_status
+run_passes(pasting *p, const pass *passes, double reach, double radius)
+{
+    p->reach = reach;
+    p->radius = radius;
+    for (int32_t f = 0; f < p->l->leaf->face_count; ++f)
+        p->near[f] = INFINITY;
+    for (p->pass = passes; p->pass->size > 0.0; ++p->pass)
+        OTX_TRY(run_pass(p));
     return OSDTEX_OK;
 }
 
 otx_status
 otx_lapped_paste_all(otx_lapped *l)
 {
-    const double all = (double)l->samples.left;
     pasting *p = OTX_ZNEW(l->run->scratch, pasting, 1);
 
     if (!p)
         return otx_fail_memory(l->run, "map");
     p->l = l;
     OTX_TRY(begin(p));
-    for (int32_t pass = 0; pass < PASSES; ++pass)
-        for (int32_t at = 0; at < p->order_count;)
-        {
-            choose_seeds(p, NEAR[pass], &at);
-            OTX_TRY(run_round(p));
-            OTX_TRY(otx_progress(
-                l->run, "paste", 1.0 - (double)l->samples.left / all));
-        }
-    return OSDTEX_OK;
+    if (otx_lapped_is_whole(l))
+    {
+        const double reach = otx_lapped_whole_reach(l);
+
+        p->spacing = otx_lapped_whole_spacing(l);
+        OTX_TRY(run_passes(
+            p, l->settings.mode == OTX_LAPPED_PACKING ? PACKING : CLUMPS, reach,
+            reach));
+    }
+    return run_passes(p, SPLOTCHES, 0.0, l->settings.radius);
 }

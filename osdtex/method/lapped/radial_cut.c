@@ -241,7 +241,7 @@ best_path(
 otx_status
 otx_lapped_cut(
     const otx_lapped *l, otx_arena *scratch, const otx_radial *outline,
-    otx_lapped_paste *paste)
+    const otx_lapped_paste *paste, otx_radial *out)
 {
     double cost[ANGLES][RINGS];
     uint8_t path[ANGLES];
@@ -251,10 +251,10 @@ otx_lapped_cut(
     price(&p, outline, cost);
     best_path(cost, 0, -1, path);
     best_path(cost, ANGLES / 2, path[ANGLES / 2], path);
-    *paste->cut = *outline;
+    *out = *outline;
     for (int32_t a = 0; a < ANGLES; ++a)
-        paste->cut->radius[a] = (float)radius_of(outline, a, path[a]);
-    otx_radial_bound(paste->cut);
+        out->radius[a] = (float)radius_of(outline, a, path[a]);
+    otx_radial_bound(out);
     return OSDTEX_OK;
 }
 
@@ -272,7 +272,7 @@ otx_lapped_mark(otx_lapped *l, const otx_lapped_paste *paste)
             for (int32_t s = 0; s < facet.count; ++s)
             {
                 const otx_vec2 at = otx_lapped_place(&facet, s);
-                const double alpha = otx_radial_alpha(paste->cut, at, 0.0);
+                const double alpha = otx_lapped_alpha(paste, at);
 
                 if (alpha >= OTX_LAPPED_COVERED)
                     fresh += otx_samples_set(

@@ -10,10 +10,10 @@
 
 #include "method/lapped/lapped.h"
 
-/* Draws paste->cut in: `outline` is the furthest that it goes. MEMORY, without
- * a finding. */
+/* Draws the outline of a paste in: `outline` is the furthest that it goes. Its
+ * pieces are not looked at. MEMORY, without a finding. */
 otx_status otx_lapped_cut(
     const otx_lapped *l, otx_arena *scratch, const otx_radial *outline,
-    otx_lapped_paste *paste);
+    const otx_lapped_paste *paste, otx_radial *out);
 
 #endif

@@ -126,6 +126,18 @@ paste_unfold(paste_bench *b, int32_t face, const otx_radial *outline)
     return chart;
 }
 
+/* One piece about the middle, as large as that. */
+static inline void
+paste_whole(
+    const paste_bench *b, const otx_radial *outline, otx_lapped_paste *p)
+{
+    p->size = 1.0;
+    p->pieces = OTX_ZNEW(b->run->arena, otx_lapped_piece, 1);
+    p->piece_count = 1;
+    p->pieces[0].cut = OTX_NEW(b->run->arena, otx_radial, 1);
+    *p->pieces[0].cut = *outline;
+}
+
 /* All slots are free again. */
 static inline void
 paste_check_space(const paste_bench *b)

@@ -19,10 +19,9 @@ lay(paste_bench *b, int32_t face, double radius, otx_vec2 centre)
 
     p->chart = paste_unfold(b, face, &outline);
     p->centre = centre;
-    p->cut = OTX_NEW(b->run->arena, otx_radial, 1);
-    *p->cut = outline;
+    paste_whole(b, &outline, p);
     assert_int_equal(
-        otx_lapped_rim(&b->l, &room, p->cut, &p->chart), OSDTEX_OK);
+        otx_lapped_rim(&b->l, &room, p->pieces[0].cut, &p->chart), OSDTEX_OK);
 }
 
 /* One piece under all, and three that lie over parts of it. */
@@ -75,10 +74,10 @@ shares(
                 (double)c
                     ->rim[c->corners
                               [c->first[slot] + sample->corners[k] - 4 * face]];
-        weight =
-            through * rim *
-            otx_radial_alpha(
-                b->l.pastes[p].cut, paste_place(&b->l, c, slot, sample), 0.0);
+        weight = through * rim *
+                 otx_radial_alpha(
+                     b->l.pastes[p].pieces[0].cut,
+                     paste_place(&b->l, c, slot, sample), 0.0);
         by[p] = weight;
         through -= weight;
     }
@@ -119,7 +118,7 @@ shown(
                     1e-3)
                 continue;
             if (term.fragment && term.fragment->outline)
-                weight *= otx_radial_alpha(paste->cut, at, 0.0);
+                weight *= otx_radial_alpha(paste->pieces[0].cut, at, 0.0);
             by[p] += through * weight;
             break;
         }

@@ -5,20 +5,18 @@
 #include "surface/facet.h"
 
 static void
-threads_do_not_show(void **state)
+check_threads(const char *mode)
 {
-    trial *one = paste("models/cages/creature.obj", 2, 40.0, "auto", 1);
+    trial *one = paste("models/cages/torus.obj", 1, 6.0, mode, 1);
     const otx_lookups *a = one->mapping.lookups;
     const size_t faces = (size_t)otx_surface_leaf(&one->surface)->face_count;
     const size_t corners =
         (size_t)otx_surface_leaf(&one->surface)->corner_count;
     static const int32_t threads[] = {2, 8};
 
-    (void)state;
     for (int i = 0; i < 2; ++i)
     {
-        trial *t =
-            paste("models/cages/creature.obj", 2, 40.0, "auto", threads[i]);
+        trial *t = paste("models/cages/torus.obj", 1, 6.0, mode, threads[i]);
         const otx_lookups *b = t->mapping.lookups;
 
         assert_int_equal(t->mapping.patch_count, one->mapping.patch_count);
@@ -38,6 +36,14 @@ threads_do_not_show(void **state)
     test_run_destroy(one->run);
 }
 
+static void
+threads_do_not_show(void **state)
+{
+    (void)state;
+    check_threads("splotch");
+    check_threads("packing");
+}
+
 static double
 area_of(const otx_lookup *corners, int32_t a, int32_t b, int32_t c)
 {
@@ -52,7 +58,7 @@ area_of(const otx_lookup *corners, int32_t a, int32_t b, int32_t c)
 static void
 no_piece_turns_over(void **state)
 {
-    trial *t = paste("models/cages/creature.obj", 2, 40.0, "auto", 2);
+    trial *t = paste("models/cages/creature.obj", 1, 12.0, "splotch", 2);
     const otx_level *leaf = otx_surface_leaf(&t->surface);
     const otx_lookups *l = t->mapping.lookups;
 

@@ -17,10 +17,11 @@ make_paste(paste_bench *b)
 {
     const otx_radial outline = paste_circle(RADIUS, 2.0);
 
-    return (otx_lapped_paste){
-        .chart = paste_unfold(b, SEED, &outline),
-        .centre = {32.0, 32.0},
-        .cut = OTX_NEW(b->run->arena, otx_radial, 1)};
+    otx_lapped_paste p = {
+        .chart = paste_unfold(b, SEED, &outline), .centre = {32.0, 32.0}};
+
+    paste_whole(b, &outline, &p);
+    return p;
 }
 
 static paste_bench *
@@ -65,20 +66,23 @@ cut(paste_bench *b, otx_lapped_paste *p)
     const otx_radial outline = paste_circle(RADIUS, 2.0);
 
     assert_int_equal(
-        otx_lapped_cut(&b->l, b->run->arena, &outline, p), OSDTEX_OK);
-    assert_float_equal(p->cut->feather, outline.feather, 0.0);
+        otx_lapped_cut(&b->l, b->run->arena, &outline, p, p->pieces[0].cut),
+        OSDTEX_OK);
+    assert_float_equal(p->pieces[0].cut->feather, outline.feather, 0.0);
     for (int32_t a = 0; a < OTX_RADIAL_ANGLES; ++a)
     {
-        const float next = p->cut->radius[(a + 1) % OTX_RADIAL_ANGLES];
+        const float next =
+            p->pieces[0].cut->radius[(a + 1) % OTX_RADIAL_ANGLES];
 
-        assert_true(p->cut->radius[a] <= (float)RADIUS + 1e-3f);
-        assert_true(p->cut->radius[a] >= 0.4f * (float)RADIUS);
+        assert_true(p->pieces[0].cut->radius[a] <= (float)RADIUS + 1e-3f);
+        assert_true(p->pieces[0].cut->radius[a] >= 0.4f * (float)RADIUS);
         /* Two rings of 23 in 58 % of the radius. */
         assert_true(
-            fabsf(next - p->cut->radius[a]) <= 2.001 * 0.58 * RADIUS / 23.0);
+            fabsf(next - p->pieces[0].cut->radius[a]) <=
+            2.001 * 0.58 * RADIUS / 23.0);
         assert_true(
-            p->cut->least <= p->cut->radius[a] &&
-            p->cut->radius[a] <= p->cut->most);
+            p->pieces[0].cut->least <= p->pieces[0].cut->radius[a] &&
+            p->pieces[0].cut->radius[a] <= p->pieces[0].cut->most);
     }
 }
 
@@ -90,7 +94,7 @@ what_nothing_covers_is_pasted_to_the_outline(void **state)
 
     cut(b, &p);
     for (int32_t a = 0; a < OTX_RADIAL_ANGLES; ++a)
-        assert_float_equal(p.cut->radius[a], RADIUS, 1e-3);
+        assert_float_equal(p.pieces[0].cut->radius[a], RADIUS, 1e-3);
 }
 
 static float
@@ -117,13 +121,13 @@ paths_run_where_both_look_alike(void **state)
     cover(b, &p, ring);
     cut(b, &p);
     for (int32_t a = 0; a < OTX_RADIAL_ANGLES; ++a)
-        assert_float_equal(p.cut->radius[a], 28.0, 4.5);
+        assert_float_equal(p.pieces[0].cut->radius[a], 28.0, 4.5);
     cover(b, &p, egg);
     cut(b, &p);
     for (int32_t a = 0; a < OTX_RADIAL_ANGLES; ++a)
         assert_float_equal(
-            p.cut->radius[a], 28.0 + 7.0 * sin(TAU * a / OTX_RADIAL_ANGLES),
-            4.5);
+            p.pieces[0].cut->radius[a],
+            28.0 + 7.0 * sin(TAU * a / OTX_RADIAL_ANGLES), 4.5);
 }
 
 /* Right of the middle nothing is covered, so that the piece has to stay; left
@@ -146,8 +150,9 @@ what_is_open_is_not_left_open(void **state)
                 s->covered[s->first[p.chart.faces[i]] + k] = 0;
         }
     cut(b, &p);
-    assert_float_equal(p.cut->radius[0], RADIUS, 1e-3);
-    assert_float_equal(p.cut->radius[OTX_RADIAL_ANGLES / 2], 28.0, 4.5);
+    assert_float_equal(p.pieces[0].cut->radius[0], RADIUS, 1e-3);
+    assert_float_equal(
+        p.pieces[0].cut->radius[OTX_RADIAL_ANGLES / 2], 28.0, 4.5);
 }
 
 /* What is inside of the cut is covered and shows the exemplar, what is outside
@@ -160,7 +165,7 @@ marks_are_those_of_the_cut(void **state)
     otx_samples *s = &b->l.samples;
     int64_t left = 0;
 
-    *p.cut = paste_circle(20.0, 2.0);
+    *p.pieces[0].cut = paste_circle(20.0, 2.0);
     s->left -= otx_lapped_mark(&b->l, &p);
     for (int32_t i = 0; i < p.chart.face_count; ++i)
         for (int32_t k = 0; k < otx_samples_count(s, p.chart.faces[i]); ++k)
