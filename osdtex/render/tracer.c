@@ -104,15 +104,18 @@ list_primitives(otx_run *run, otx_tracer *tracer)
     return OSDTEX_OK;
 }
 
-/* Corners of a primitive; a fan's triangle repeats its last. */
+/* Corners of a primitive. Embree splits quads between their second and last
+ * corner, which are the first and the third of the face; a fan's triangle
+ * repeats its last. */
 static void
 primitive_corners(const otx_scene *scene, primitive p, int32_t corners[4])
 {
     const int32_t first = scene->face_first[p.face];
 
     for (int32_t i = 0; i < 4; ++i)
-        corners[i] = p.fan < 0 ? first + i : first + p.fan + (i < 2 ? i : 2);
-    corners[0] = first;
+        corners[i] = p.fan < 0 ? first + (i + 1) % 4
+                     : i == 0  ? first
+                               : first + p.fan + (i < 2 ? 1 : 2);
 }
 
 static void

@@ -24,10 +24,9 @@ typedef struct otx_hit
     otx_vec3 normal; /* unit, by the winding */
 } otx_hit;
 
-/* Builds the tree over the faces that are no holes. A quad is the triangles
- * (0, 1, 3) and (2, 3, 1), as Embree splits it; other faces are fans about
- * their first corner. The tracer lives in run->scratch and borrows `scene`,
- * which must be valid. MEMORY; NUMERIC when Embree refuses. */
+/* Builds the tree over the faces that are no holes, which are fans about their
+ * first corner (surface/facet.h). The tracer lives in run->scratch and borrows
+ * `scene`, which must be valid. MEMORY; NUMERIC when Embree refuses. */
 otx_status
 otx_tracer_create(otx_run *run, const otx_scene *scene, otx_tracer **out);
 

@@ -1,8 +1,9 @@
 /* facet.h -- leaf faces as triangles, the way they are rendered.
  *
- * A quad is the triangles (0, 1, 3) and (2, 3, 1), as Embree splits it; other
- * faces are fans about their first corner. Within a facet everything is
- * affine: texture coordinates, exemplar UVs, positions. */
+ * They are fans about their first corner, as readers of models cut quads:
+ * Blender, three.js, the viewers of USD. What is baked for one diagonal shows a
+ * bent quad wrongly along the other. Within a facet everything is affine:
+ * texture coordinates, exemplar UVs, positions. */
 #ifndef OTX_SURFACE_FACET_H
 #define OTX_SURFACE_FACET_H
 
@@ -31,11 +32,6 @@ otx_facet_at(const otx_level *level, int32_t face, int32_t index)
     const int32_t size = otx_level_face_size(level, face);
     const int32_t last = size - 3;
 
-    if (size == 4 && index == 0)
-        return (otx_facet){face, 0, {first, first + 1, first + 3}, {0, ~1, 3}};
-    if (size == 4)
-        return (otx_facet){
-            face, 1, {first + 2, first + 3, first + 1}, {2, ~0, 1}};
     return (otx_facet){
         face,
         index,
@@ -57,10 +53,7 @@ otx_facet_at_edge(
     const otx_level *level, int32_t face, int32_t k, int32_t *side)
 {
     const int32_t size = otx_level_face_size(level, face);
-    const int32_t index = size == 4       ? (k == 1 || k == 2)
-                          : k == 0        ? 0
-                          : k == size - 1 ? size - 3
-                                          : k - 1;
+    const int32_t index = k == 0 ? 0 : k == size - 1 ? size - 3 : k - 1;
     const otx_facet facet = otx_facet_at(level, face, index);
 
     *side = otx_facet_side(&facet, k);

@@ -19,12 +19,13 @@ from oracles import ROOT, need, run
 
 STONES, GRASS = "stones_open.png", "grass_tile.png"
 # Cage, exemplar, level, coordinates to bake onto, side of a tile and its density.
-# Few faces want a high level: quads that are large in the picture are bent, and
-# no two renderers cut them into the same triangles.
+# Quads that are large in the picture are bent: that they are cut where Blender
+# cuts them is seen in fine grass on few faces.
 CASES = [
     ("creased", STONES, 4, "atlas", 2048, None),
     ("ngons_and_triangles", STONES, 4, "atlas", 2048, None),
     ("uv_seams", STONES, 4, "own", 2048, None),
+    ("uv_seams", GRASS, 3, "own", 2048, None),
     ("creature", GRASS, 3, "atlas", 2048, None),
     ("creature", GRASS, 3, "atlas", 1024, 250),
 ]

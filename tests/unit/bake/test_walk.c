@@ -21,7 +21,8 @@ point_of(const otx_surface *surface, const otx_walk *walk)
     return sum;
 }
 
-/* A walk on facet 0 of face `face` whose coordinates stand for (x, y). */
+/* A walk on facet 0 of face `face`, which is below the diagonal, whose
+ * coordinates stand for (x, y). */
 static otx_walk
 walk_from(const otx_surface *surface, int32_t face, double x, double y)
 {
@@ -33,8 +34,8 @@ walk_from(const otx_surface *surface, int32_t face, double x, double y)
         surface->points + 3 * leaf->face_verts[walk.facet.corners[1]];
     const double side = (double)right[0] - low[0];
 
-    walk.at[1] = (x - low[0]) / side;
     walk.at[2] = (y - low[1]) / side;
+    walk.at[1] = (x - low[0]) / side - walk.at[2];
     walk.at[0] = 1.0 - walk.at[1] - walk.at[2];
     return walk;
 }
@@ -123,7 +124,7 @@ across_a_crease_lengths_are_kept(void **state)
      * below its lower edge is on the bottom, as far from that edge. */
     otx_walk walk = {
         .facet = otx_facet_at(otx_surface_leaf(&surface), 0, 0),
-        .at = {1.0 - 0.5 + 0.25, 0.5, -0.25}};
+        .at = {1.0 - 0.5, 0.5 + 0.25, -0.25}};
 
     assert_true(otx_walk_on(&surface, covered, 96, &walk));
 

@@ -85,12 +85,32 @@ edges_find_their_facet(void **state)
     test_run_destroy(run);
 }
 
+/* As Blender, three.js and the viewers of USD cut them. */
+static void
+quads_are_cut_from_their_first_corner(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_level level = polygon(run, 4);
+
+    (void)state;
+    for (int32_t i = 0; i < 2; ++i)
+    {
+        const otx_facet facet = otx_facet_at(&level, 0, i);
+
+        assert_int_equal(facet.corners[0], 0);
+        assert_int_equal(facet.corners[1], i + 1);
+        assert_int_equal(facet.corners[2], i + 2);
+    }
+    test_run_destroy(run);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sides_meet),
         cmocka_unit_test(edges_find_their_facet),
+        cmocka_unit_test(quads_are_cut_from_their_first_corner),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
