@@ -7,13 +7,18 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
+#include <ImfOutputFile.h>
 #include <ImfRgbaFile.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace
@@ -86,12 +91,82 @@ read_channels(const otx_openexr_picture &p, otx_openexr_sink sink, void *user)
     }
 }
 
-/* OpenEXR's own reconstruction of chroma, and its weights from the header's
- * chromaticities. */
-void
-read_chroma(const otx_openexr_picture &p, otx_openexr_sink sink, void *user)
+/* A file in memory, to be written. */
+class sheet : public Imf::OStream
 {
-    Imf::RgbaInputFile file(p.path, 0);
+  public:
+    sheet() : OStream("part")
+    {
+    }
+    void write(const char *from, int count) override
+    {
+        if (at + size_t(count) > bytes.size())
+            bytes.resize(at + size_t(count));
+        std::copy(from, from + count, bytes.begin() + ptrdiff_t(at));
+        at += size_t(count);
+    }
+    uint64_t tellp() override
+    {
+        return at;
+    }
+    void seekp(uint64_t to) override
+    {
+        at = size_t(to);
+    }
+
+    std::string bytes;
+
+  private:
+    size_t at = 0;
+};
+
+/* And to be read. */
+class reading : public Imf::IStream
+{
+  public:
+    explicit reading(const std::string &all) : IStream("part"), bytes(all)
+    {
+    }
+    bool read(char *to, int count) override
+    {
+        if (size_t(count) > bytes.size() - at)
+            throw std::runtime_error("the part ends early");
+        std::copy_n(bytes.begin() + ptrdiff_t(at), count, to);
+        at += size_t(count);
+        return at < bytes.size();
+    }
+    uint64_t tellg() override
+    {
+        return at;
+    }
+    void seekg(uint64_t to) override
+    {
+        at = std::min(size_t(to), bytes.size());
+    }
+
+  private:
+    const std::string &bytes;
+    size_t at = 0;
+};
+
+/* A part as a file of its own, block by block as they are. */
+void
+copy_part(Imf::MultiPartInputFile &file, int index, sheet *out)
+{
+    Imf::InputPart part(file, index);
+    Imf::Header header = part.header();
+
+    for (const char *name : {"name", "type", "view", "chunkCount"})
+        header.erase(name);
+    Imf::OutputFile alone(*out, header, 0);
+    alone.copyPixels(part);
+}
+
+void
+read_chroma_of(
+    Imf::RgbaInputFile &file, const otx_openexr_picture &p,
+    otx_openexr_sink sink, void *user)
+{
     const window w = window_of(file.dataWindow());
     std::vector<Imf::Rgba> pixels(static_cast<size_t>(w.width));
     std::vector<float> row(4 * size_t(w.width));
@@ -109,6 +184,31 @@ read_chroma(const otx_openexr_picture &p, otx_openexr_sink sink, void *user)
         }
         sink(user, y, row.data(), w.x_min, w.width);
     }
+}
+
+/* OpenEXR's own reconstruction of chroma, and its weights from the header's
+ * chromaticities. It takes files of one part. */
+void
+read_chroma(const otx_openexr_picture &p, otx_openexr_sink sink, void *user)
+{
+    Imf::MultiPartInputFile parts(p.path, 0);
+
+    if (parts.parts() == 1)
+    {
+        Imf::RgbaInputFile file(p.path, 0);
+
+        read_chroma_of(file, p, sink, user);
+        return;
+    }
+
+    sheet alone;
+
+    copy_part(parts, p.part, &alone);
+
+    reading stream(alone.bytes);
+    Imf::RgbaInputFile file(stream, 0);
+
+    read_chroma_of(file, p, sink, user);
 }
 
 /* What OpenEXR says may quote bytes of the file. */

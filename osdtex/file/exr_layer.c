@@ -448,12 +448,7 @@ choose(
     note_choice(&list, path, chosen);
     *out = chosen->layer;
     out->name = chosen->name[0] ? chosen->name : NULL;
-    if (!out->is_chroma || part_count == 1)
-        return OSDTEX_OK;
-    return otx_fail(
-        run, OSDTEX_ERROR_SUPPORT, "picture", otx_where_file(path),
-        "luminance with chroma is read from EXRs of one part only; convert it "
-        "to R, G, B");
+    return OSDTEX_OK;
 }
 
 /* Colours that are subsampled otherwise than as chroma would need a filter of

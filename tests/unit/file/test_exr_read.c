@@ -136,7 +136,10 @@ test_dwa_is_read(void **state)
 void write_chroma(
     const char *path, const float *rgb, int width, int height, bool alpha);
 
-/* A smooth picture is the same again but for the rounding of half. */
+void join_chroma(const char *path, const char *single);
+
+/* A smooth picture is the same again but for the rounding of half, and the same
+ * to the bit as one of several parts. */
 static void
 test_luminance_with_chroma_is_read(void **state)
 {
@@ -168,6 +171,14 @@ test_luminance_with_chroma_is_read(void **state)
                     assert_float_equal(
                         otx_image_at(&picture.image, x, H - 1 - y)[c],
                         rgb[3 * (y * W + x) + c], 0.05);
+
+        otx_picture second;
+
+        join_chroma(
+            test_path(&f->folder, "parts.exr"),
+            test_path(&f->folder, "yc.exr"));
+        second = read_file(f, "parts.exr");
+        test_same_image(&picture.image, &second.image, 0.0);
     }
 }
 
