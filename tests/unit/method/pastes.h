@@ -85,7 +85,7 @@ paste_seed(const paste_bench *b, int32_t face)
     return (otx_lapped_seed){
         face,
         {{facet.corners[0], facet.corners[1], facet.corners[2]},
-         {0.25, 0.5, 0.25}},
+         {0.5, 0.25, 0.25}},
         {1.0, 0.0}};
 }
 

@@ -176,7 +176,7 @@ points_of_samples_are_on_the_surface(void **state)
     const otx_lapped_seed seed = paste_seed(b, 5);
     const otx_vec3 p = otx_lapped_point(&b->l, &seed.place);
 
-    /* Face (1, 1): a quarter of corner 0, half of 1, a quarter of 3. */
+    /* Face (1, 1): half of corner 0, a quarter of 1 and of 2. */
     assert_float_equal(p.x, 1.5, 1e-6);
     assert_float_equal(p.y, 1.25, 1e-6);
     assert_float_equal(p.z, 0.0, 1e-6);
