@@ -77,17 +77,17 @@ otx_also_flags_parse(const otx_flag_values *values, otx_also_flags *out)
 
 /* As an input, once. */
 static void
-add_input(otx_flag_values *values, const char *path)
+add_input(otx_flag_inputs *inputs, const char *path)
 {
-    for (int i = 0; i < values->map_count; ++i)
-        if (strcmp(values->maps[i], path) == 0)
+    for (int i = 0; i < inputs->map_count; ++i)
+        if (strcmp(inputs->maps[i], path) == 0)
             return;
-    values->maps[values->map_count++] = path;
+    inputs->maps[inputs->map_count++] = path;
 }
 
 osdtex_status
 otx_also_flags_find(
-    osdtex_context *context, otx_flag_values *values, otx_also_flags *also)
+    osdtex_context *context, otx_flag_inputs *inputs, otx_also_flags *also)
 {
     for (int k = 0; k < also->count; ++k)
     {
@@ -101,9 +101,9 @@ otx_also_flags_find(
             return status;
         info = otx_also_flags_set(also, k);
         also->files[k] = info->color;
-        add_input(values, info->color);
+        add_input(inputs, info->color);
         for (int i = 0; i < info->map_count; ++i)
-            add_input(values, info->maps[i].path);
+            add_input(inputs, info->maps[i].path);
     }
     return OSDTEX_OK;
 }

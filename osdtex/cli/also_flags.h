@@ -27,10 +27,10 @@ const char *otx_also_flags_file(const char *text);
 /* Takes --also and --scale apart. False after saying what is wrong. */
 bool otx_also_flags_parse(const otx_flag_values *values, otx_also_flags *out);
 
-/* Finds the materials in those that are folders: their files go into `values`
- * as inputs. Findings say what is wrong. */
+/* Finds the materials in those that are folders: their files go into `inputs`.
+ * Findings say what is wrong. */
 osdtex_status otx_also_flags_find(
-    osdtex_context *context, otx_flag_values *values, otx_also_flags *also);
+    osdtex_context *context, otx_flag_inputs *inputs, otx_also_flags *also);
 
 /* Maps of the one at `k`; NULL none. */
 const osdtex_material_info *

@@ -362,7 +362,7 @@ bool
 otx_command_takes(const otx_command *command, const otx_flag_values *values)
 {
     const int least =
-        values->saved
+        values->inputs.saved.path
             ? 0
             : command->operands_min - (values->text[OTX_FLAG_MATERIAL] ? 1 : 0);
 

@@ -140,8 +140,8 @@ say_field(otx_session *session, const job *j)
         "%.2f",
         field->face_count, field->symmetry, field->singularity_count, positive,
         field->scale_min, field->scale_max);
-    for (osdtex_index i = 0; session->verbose && i < field->singularity_count;
-         ++i)
+    for (osdtex_index i = 0;
+         session->console.verbose && i < field->singularity_count; ++i)
         otx_session_say(
             session, "singularity of index %+g at %g %g %g",
             field->singularities[i].index, field->singularities[i].point[0],

@@ -591,7 +591,7 @@ otx_flag_parse(
         id = c >= ID_BASE ? c - ID_BASE : id_of_letter(c);
         if (id == OTX_FLAG_FROM && otx_value_has_extension(optarg, ".osdtex"))
         {
-            out->saved = optarg;
+            out->inputs.saved.path = optarg;
             continue;
         }
         out->text[id] = optarg ? optarg : "";

@@ -135,7 +135,6 @@ enum
         OSDTEX_MAP_KINDS + 1 /* of a material, its colour too */
 };
 
-/* A command line, taken apart. Strings point into argv. */
 /* An input that is a pipe: see cli/spool.h. */
 typedef struct otx_flag_spool
 {
@@ -149,6 +148,7 @@ typedef struct otx_flag_spool
  * saved_files.h. */
 typedef struct otx_flag_saved
 {
+    const char *path; /* NAME.osdtex; NULL none */
     char *files[OTX_FLAG_SAVED_MAX];
     int count;
     int exemplars;
@@ -156,6 +156,19 @@ typedef struct otx_flag_saved
     bool out_of_memory;
 } otx_flag_saved;
 
+/* Files that a command line leads to, beyond those that stand in it; found
+ * before anything is read. */
+typedef struct otx_flag_inputs
+{
+    /* Of materials. */
+    const char *maps[OSDTEX_MAP_KINDS + OTX_FLAG_ALSO_MAX * OTX_FLAG_SET_FILES];
+    int map_count;
+    otx_flag_saved saved; /* of --from */
+    otx_flag_spool spools[OTX_FLAG_SPOOLS_MAX];
+    int spool_count;
+} otx_flag_inputs;
+
+/* A command line, taken apart. Strings point into argv. */
 typedef struct otx_flag_values
 {
     const char *text[OTX_FLAG_COUNT]; /* NULL: not given; "" for switches */
@@ -167,15 +180,9 @@ typedef struct otx_flag_values
     int also_count;
     const char *operands[OTX_FLAG_OPERANDS_MAX];
     int operand_count;
-    /* Files of materials, as found. */
-    const char *maps[OSDTEX_MAP_KINDS + OTX_FLAG_ALSO_MAX * OTX_FLAG_SET_FILES];
-    int map_count;
-    const char *saved; /* NAME.osdtex of --from; NULL none */
-    otx_flag_saved of_saved;
     const otx_flag_id *ids; /* the flags of the command */
     const char *job; /* file of the job that this is a task of; NULL none */
-    otx_flag_spool spools[OTX_FLAG_SPOOLS_MAX];
-    int spool_count;
+    otx_flag_inputs inputs;
 } otx_flag_values;
 
 const otx_flag *otx_flag_at(otx_flag_id id);

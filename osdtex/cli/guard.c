@@ -57,14 +57,14 @@ otx_guard_named(
         if (!otx_path_list_is_folder(file))
             status = add_file(context, deep, out, file);
     }
-    for (int i = 0; i < values->map_count && status == OSDTEX_OK; ++i)
-        status = add_file(context, deep, out, values->maps[i]);
+    for (int i = 0; i < values->inputs.map_count && status == OSDTEX_OK; ++i)
+        status = add_file(context, deep, out, values->inputs.maps[i]);
     if (status == OSDTEX_OK)
-        status = add_file(context, deep, out, values->saved);
+        status = add_file(context, deep, out, values->inputs.saved.path);
     /* Operands stand in the place of the first ones. */
     for (int i = values->operand_count;
-         i < values->of_saved.count && status == OSDTEX_OK; ++i)
-        status = add_file(context, deep, out, values->of_saved.files[i]);
+         i < values->inputs.saved.count && status == OSDTEX_OK; ++i)
+        status = add_file(context, deep, out, values->inputs.saved.files[i]);
     return status;
 }
 

@@ -86,7 +86,7 @@ read_saved(otx_session *session, job *j)
     options.height_middle = j->request.exemplar_options.height_middle;
 
     const osdtex_status status = osdtex_mapping_read(
-        session->context, values->saved, &options, &j->mapping);
+        session->context, values->inputs.saved.path, &options, &j->mapping);
 
     otx_session_lap(session, "inputs read");
     return status;
@@ -178,9 +178,9 @@ say_outputs(const job *j)
         otx_session_print(
             "into          %s, %s, %s%s\n", r->obj, r->mtl, r->exrs[0],
             r->exr_count > 1 ? " and so on" : "");
-    if (r->bakes && !r->values->saved)
+    if (r->bakes && !r->values->inputs.saved.path)
         say_bake(j);
-    if (r->bakes && r->values->saved)
+    if (r->bakes && r->values->inputs.saved.path)
         otx_session_print(
             "baked into    %s, %s and their textures of %d texels\n",
             r->cage_obj, r->cage_mtl, r->bake_options.resolution);
@@ -224,7 +224,8 @@ say_saved_plan(const job *j)
 
     otx_session_print(
         "would take    %s: %d faces in %d patches, by %s\n",
-        j->request.values->saved, m->face_count, m->patch_count, m->method);
+        j->request.values->inputs.saved.path, m->face_count, m->patch_count,
+        m->method);
     say_outputs(j);
 }
 
@@ -273,7 +274,7 @@ map(otx_session *session, job *j)
 static osdtex_status
 texture(otx_session *session, job *j)
 {
-    const bool is_saved = j->request.values->saved != NULL;
+    const bool is_saved = j->request.values->inputs.saved.path != NULL;
     osdtex_status status =
         is_saved ? read_saved(session, j) : read_inputs(session, j);
 
@@ -309,7 +310,7 @@ clean_up(job *j)
     otx_material_flags_destroy(&j->request.material);
     osdtex_exemplar_destroy(j->exemplar);
     osdtex_cage_destroy(j->cage);
-    otx_saved_files_free(&j->values);
+    otx_saved_files_free(&j->values.inputs.saved);
 }
 
 static osdtex_status
@@ -339,16 +340,17 @@ mark_outputs(otx_session *session, job *j)
 static osdtex_status
 prepare(otx_session *session, job *j)
 {
-    osdtex_status status = otx_saved_files_take(session, &j->values);
+    osdtex_status status =
+        otx_saved_files_take(session, &j->values.inputs.saved);
 
     if (status == OSDTEX_OK)
         status = otx_material_flags_take(
             session, &j->values, 1, &j->request.exemplar_options,
             &j->request.material);
     if (status == OSDTEX_OK)
-        status =
-            otx_also_flags_find(session->context, &j->values, &j->request.also);
-    if (status == OSDTEX_OK && j->values.saved &&
+        status = otx_also_flags_find(
+            session->context, &j->values.inputs, &j->request.also);
+    if (status == OSDTEX_OK && j->values.inputs.saved.path &&
         !otx_map_request_name(&j->request))
         status = OSDTEX_ERROR_ARGUMENT;
     if (status == OSDTEX_OK)

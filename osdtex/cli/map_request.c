@@ -42,8 +42,9 @@ otx_map_request_name(otx_map_request *r)
     const char *extension = texture_extension(r);
     char suffix[32];
 
-    r->exr_count = r->values->saved ? otx_saved_files_exemplars(r->values)
-                                    : r->also.count + 1;
+    r->exr_count = r->values->inputs.saved.path
+                       ? otx_saved_files_exemplars(r->values)
+                       : r->also.count + 1;
     snprintf(suffix, sizeof suffix, "%s", extension);
     for (int k = 0; k < r->exr_count; ++k)
     {
@@ -68,9 +69,10 @@ kinds_of(const otx_map_request *r, int k)
 
     if (k == 0)
         kinds = otx_material_flags_kinds(&r->material);
-    if (r->values->saved && kinds == 0 && !(k == 0 && r->values->operands[1]))
-        kinds = r->values->of_saved.maps[k];
-    if (k == 0 || r->values->saved)
+    if (r->values->inputs.saved.path && kinds == 0 &&
+        !(k == 0 && r->values->operands[1]))
+        kinds = r->values->inputs.saved.maps[k];
+    if (k == 0 || r->values->inputs.saved.path)
         return kinds;
     set = k <= r->also.count ? otx_also_flags_set(&r->also, k - 1) : NULL;
     for (int i = 0; set && i < set->map_count; ++i)
@@ -296,7 +298,8 @@ saved_stays(const otx_map_request *r)
         OTX_FLAG_MATCH_SPACE, OTX_FLAG_MATCH_IN,      OTX_FLAG_WRAP,
         OTX_FLAG_TILEABLE,    OTX_FLAG_EXEMPLAR_CLASS};
 
-    for (size_t i = 0; r->values->saved && i < sizeof decided / sizeof *decided;
+    for (size_t i = 0;
+         r->values->inputs.saved.path && i < sizeof decided / sizeof *decided;
          ++i)
         if (r->values->text[decided[i]])
         {

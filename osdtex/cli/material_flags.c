@@ -113,7 +113,7 @@ take_found(
     if (info->color_layer && !values->text[OTX_FLAG_LAYER])
         options->layer = info->color_layer;
     /* Before the cage there is none. */
-    if (values->operand_count == operand && !values->saved)
+    if (values->operand_count == operand && !values->inputs.saved.path)
         values->operands[values->operand_count++] = info->color;
     return OSDTEX_OK;
 }
@@ -211,17 +211,17 @@ take_range(const otx_flag_values *values, osdtex_exemplar_options *options)
 
 /* As inputs, each file once. */
 static void
-list_inputs(const otx_material_flags *flags, otx_flag_values *values)
+list_inputs(const otx_material_flags *flags, otx_flag_inputs *inputs)
 {
-    values->map_count = 0;
+    inputs->map_count = 0;
     for (int i = 0; i < flags->count; ++i)
     {
         bool listed = false;
 
-        for (int k = 0; k < values->map_count; ++k)
-            listed |= strcmp(values->maps[k], flags->maps[i].path) == 0;
+        for (int k = 0; k < inputs->map_count; ++k)
+            listed |= strcmp(inputs->maps[k], flags->maps[i].path) == 0;
         if (!listed)
-            values->maps[values->map_count++] = flags->maps[i].path;
+            inputs->maps[inputs->map_count++] = flags->maps[i].path;
     }
 }
 
@@ -239,7 +239,7 @@ otx_material_flags_take(
         return OSDTEX_ERROR_ARGUMENT;
     options->maps = out->maps;
     options->map_count = out->count;
-    list_inputs(out, values);
+    list_inputs(out, &values->inputs);
     return OSDTEX_OK;
 }
 

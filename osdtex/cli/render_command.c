@@ -62,7 +62,7 @@ parse(job *j, const otx_flag_values *values)
     *j = (job){
         .path = values->operands[0],
         .output = values->text[OTX_FLAG_OUTPUT],
-        .saved = values->saved,
+        .saved = values->inputs.saved.path,
         .from = values->text[OTX_FLAG_FROM],
         .dry_run = values->text[OTX_FLAG_DRY_RUN] != NULL};
     if (!j->output || (!otx_value_has_extension(j->output, ".png") &&
@@ -182,12 +182,12 @@ otx_render_command_run(const otx_flag_values *values)
         return OTX_EXIT_USAGE;
     if (!otx_session_begin(&session, values))
         return session.exit_code;
-    status = otx_saved_files_take(&session, &all);
+    status = otx_saved_files_take(&session, &all.inputs.saved);
     if (status == OSDTEX_OK)
         status = otx_guard_check_flags(&session, &all);
     if (status == OSDTEX_OK)
         status = render(&session, &j);
     drop(&j);
-    otx_saved_files_free(&all);
+    otx_saved_files_free(&all.inputs.saved);
     return otx_session_end(&session, status);
 }

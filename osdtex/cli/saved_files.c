@@ -56,40 +56,38 @@ add_kinds(void *user, const char *about)
 }
 
 osdtex_status
-otx_saved_files_take(otx_session *session, otx_flag_values *values)
+otx_saved_files_take(otx_session *session, otx_flag_saved *saved)
 {
     osdtex_status status;
 
-    if (!values->saved)
+    if (!saved->path)
         return OSDTEX_OK;
-    status = osdtex_mapping_files(
-        session->context, values->saved, add, &values->of_saved);
+    status = osdtex_mapping_files(session->context, saved->path, add, saved);
     if (status == OSDTEX_OK)
         status = osdtex_mapping_inspect(
-            session->context, values->saved, add_kinds, &values->of_saved);
-    return status == OSDTEX_OK && values->of_saved.out_of_memory
-               ? OSDTEX_ERROR_MEMORY
-               : status;
+            session->context, saved->path, add_kinds, saved);
+    return status == OSDTEX_OK && saved->out_of_memory ? OSDTEX_ERROR_MEMORY
+                                                       : status;
 }
 
 void
-otx_saved_files_free(otx_flag_values *values)
+otx_saved_files_free(otx_flag_saved *saved)
 {
-    for (int i = 0; i < values->of_saved.count; ++i)
-        free(values->of_saved.files[i]);
-    values->of_saved.count = 0;
+    for (int i = 0; i < saved->count; ++i)
+        free(saved->files[i]);
+    saved->count = 0;
 }
 
 const char *
 otx_saved_files_source(const otx_flag_values *values)
 {
-    return values->operand_count == 0 && values->of_saved.count > 0
-               ? values->of_saved.files[0]
+    return values->operand_count == 0 && values->inputs.saved.count > 0
+               ? values->inputs.saved.files[0]
                : otx_spool_name(values, values->operands[0]);
 }
 
 int
 otx_saved_files_exemplars(const otx_flag_values *values)
 {
-    return values->of_saved.exemplars;
+    return values->inputs.saved.exemplars;
 }

@@ -4,11 +4,10 @@
 
 #include "cli/session.h"
 
-/* Sets what `values` says of the saved mapping's files; nothing without one.
- * What is wrong with it is told by a finding: FORMAT, SUPPORT, IO, MEMORY. */
-osdtex_status
-otx_saved_files_take(otx_session *session, otx_flag_values *values);
-void otx_saved_files_free(otx_flag_values *values);
+/* Lists the files that saved->path names; nothing without one. What is wrong
+ * with it is told by a finding: FORMAT, SUPPORT, IO, MEMORY. */
+osdtex_status otx_saved_files_take(otx_session *session, otx_flag_saved *saved);
+void otx_saved_files_free(otx_flag_saved *saved);
 
 /* What outputs are made from: the first operand, or the cage that the saved
  * mapping names; NULL none. */

@@ -1,4 +1,4 @@
-/* session.c -- findings, progress, signals. */
+/* session.c -- a context with a person in front of it. */
 #include "cli/session.h"
 #include "cli/spool.h"
 #include "cli/stop.h"
@@ -14,9 +14,7 @@
 
 enum
 {
-    BAR_WIDTH = 40,
-    MAX_THREADS = 256,
-    LINE_BYTES = 16384 /* names of several files fit */
+    MAX_THREADS = 256
 };
 
 bool
@@ -28,30 +26,7 @@ otx_session_is_stopped(void)
 double
 otx_session_seconds(const otx_session *session)
 {
-    return otx_process_seconds() - session->begun;
-}
-
-static void
-wipe_bar(otx_session *session)
-{
-    if (session->bar_is_shown)
-        fputs("\r\033[K", stderr);
-    session->bar_is_shown = false;
-}
-
-/* Names in a file may hold what a terminal takes for commands. */
-static char
-plain(char c)
-{
-    return (unsigned char)c >= ' ' && c != 127 ? c : '?';
-}
-
-/* `length` characters. */
-static void
-put_plain(const char *text, size_t length)
-{
-    for (size_t i = 0; i < length; ++i)
-        fputc(plain(text[i]), stderr);
+    return otx_process_seconds() - session->console.begun;
 }
 
 /* A sentence of the library, with its options as flags. */
@@ -66,20 +41,9 @@ put_sentence(const osdtex_diagnostic *d)
 
         if (is_option)
             fputs("--", stderr);
-        put_plain(at, length);
+        otx_console_put(at, length);
         at += length + (at[length] != '\0');
     }
-}
-
-static void
-put_line(const char *opening, const char *format, va_list arguments)
-{
-    char line[LINE_BYTES];
-
-    vsnprintf(line, sizeof line, format, arguments);
-    fputs(opening, stderr);
-    put_plain(line, strlen(line));
-    fputc('\n', stderr);
 }
 
 void
@@ -87,11 +51,11 @@ otx_session_say(otx_session *session, const char *format, ...)
 {
     va_list arguments;
 
-    if (session->quiet)
+    if (session->console.quiet)
         return;
-    wipe_bar(session);
+    otx_console_wipe(&session->console);
     va_start(arguments, format);
-    put_line("osdtex: ", format, arguments);
+    otx_console_line("osdtex: ", format, arguments);
     va_end(arguments);
 }
 
@@ -101,7 +65,7 @@ otx_session_refuse(const char *format, ...)
     va_list arguments;
 
     va_start(arguments, format);
-    put_line("osdtex: error: ", format, arguments);
+    otx_console_line("osdtex: error: ", format, arguments);
     va_end(arguments);
     return OTX_EXIT_USAGE;
 }
@@ -121,7 +85,7 @@ otx_session_print(const char *format, ...)
         text = NULL;
     va_end(arguments);
     for (const char *c = text; c && *c; ++c)
-        putchar(*c == LINE_END ? '\n' : plain(*c));
+        putchar(*c == LINE_END ? '\n' : otx_console_plain(*c));
     free(text);
     free(lines);
 }
@@ -131,9 +95,9 @@ otx_session_lap(otx_session *session, const char *what)
 {
     const double t = otx_process_seconds();
 
-    if (session->verbose)
-        otx_session_say(session, "%s: %.3f s", what, t - session->lap);
-    session->lap = t;
+    if (session->console.verbose)
+        otx_session_say(session, "%s: %.3f s", what, t - session->console.lap);
+    session->console.lap = t;
 }
 
 /* "shirt.obj:4711: ", "shirt.obj: " or "". */
@@ -144,7 +108,7 @@ put_place(const otx_session *session, const osdtex_diagnostic *d)
 
     if (!d->file)
         return;
-    put_plain(name, strlen(name));
+    otx_console_put(name, strlen(name));
     if (d->line > 0)
         fprintf(stderr, ":%lld", (long long)d->line);
     fputs(": ", stderr);
@@ -156,9 +120,9 @@ put_finding(void *user, const osdtex_diagnostic *d)
     otx_session *session = user;
 
     session->error_is_told |= d->severity == OSDTEX_SEVERITY_ERROR;
-    if (session->quiet && d->severity != OSDTEX_SEVERITY_ERROR)
+    if (session->console.quiet && d->severity != OSDTEX_SEVERITY_ERROR)
         return;
-    wipe_bar(session);
+    otx_console_wipe(&session->console);
     fputs("osdtex: ", stderr);
     if (d->severity == OSDTEX_SEVERITY_ERROR)
         fputs("error: ", stderr);
@@ -182,7 +146,7 @@ put_repeats(otx_session *session)
     {
         if (osdtex_diagnostic_get(session->context, i, &d) != OSDTEX_OK ||
             d.count < 2 || d.severity == OSDTEX_SEVERITY_INFO ||
-            (session->quiet && d.severity != OSDTEX_SEVERITY_ERROR))
+            (session->console.quiet && d.severity != OSDTEX_SEVERITY_ERROR))
             continue;
         fputs("osdtex: ", stderr);
         put_place(session, &d);
@@ -192,44 +156,14 @@ put_repeats(otx_session *session)
     }
 }
 
-static void
-put_bar(otx_session *session, const char *stage, double fraction)
-{
-    const int filled = (int)(fraction * BAR_WIDTH);
-
-    fprintf(
-        stderr, "\r\033[K%-10s [%.*s%*s] %3d%%", stage, filled,
-        "########################################", BAR_WIDTH - filled, "",
-        (int)(100.0 * fraction));
-    fflush(stderr);
-    session->bar_is_shown = true;
-}
-
-/* At most ten times a second on a terminal, once a second in a log: a job that
- * is over at once says nothing. */
 static bool
 show_progress(void *user, const char *stage, double fraction)
 {
     otx_session *session = user;
-    const double interval = session->is_terminal ? 0.1 : 1.0;
-    const double t = otx_process_seconds();
-    const int percent = (int)(100.0 * fraction);
 
     if (otx_stop_signal())
         return false;
-    if (session->quiet || t - session->shown < interval)
-        return true;
-    session->shown = t;
-    if (session->is_terminal)
-    {
-        put_bar(session, stage, fraction);
-        return true;
-    }
-    if (percent == session->percent && strcmp(stage, session->stage) == 0)
-        return true;
-    session->percent = percent;
-    snprintf(session->stage, sizeof session->stage, "%s", stage);
-    fprintf(stderr, "osdtex: %s %d%%\n", stage, percent);
+    otx_console_progress(&session->console, stage, fraction);
     return true;
 }
 
@@ -289,13 +223,9 @@ otx_session_begin(otx_session *session, const otx_flag_values *values)
 
     *session = (otx_session){
         .values = values,
-        .quiet = values->text[OTX_FLAG_QUIET] != NULL,
-        .verbose = values->text[OTX_FLAG_VERBOSE] != NULL,
-        .is_terminal = isatty(STDERR_FILENO) != 0,
-        .begun = otx_process_seconds(),
-        .lap = otx_process_seconds(),
-        .shown = otx_process_seconds(),
-        .percent = -1,
+        .console = otx_console_begin(
+            values->text[OTX_FLAG_QUIET] != NULL,
+            values->text[OTX_FLAG_VERBOSE] != NULL),
         .exit_code = OTX_EXIT_USAGE,
     };
     if (!choose_threads(values, &options.threads) ||
@@ -362,7 +292,7 @@ int
 otx_session_end(otx_session *session, osdtex_status status)
 {
     otx_stop_unwatch();
-    wipe_bar(session);
+    otx_console_wipe(&session->console);
     put_repeats(session);
     osdtex_context_destroy(session->context);
     session->context = NULL;

@@ -4,20 +4,14 @@
 #define OTX_CLI_SESSION_H
 
 #include "cli/command.h"
+#include "cli/console.h"
 
 typedef struct otx_session
 {
     osdtex_context *context;
     const otx_flag_values *values;
-    bool quiet, verbose;
-    bool is_terminal;  /* stderr is */
-    bool bar_is_shown; /* and must be wiped before a line */
+    otx_console console;
     bool error_is_told;
-    double begun;   /* seconds */
-    double lap;     /* when the last lap ended */
-    double shown;   /* when progress was last shown */
-    char stage[32]; /* whose progress was last shown */
-    int percent;
     const char *remains; /* what a stopped session says; NULL: that nothing was
                           * written */
     int exit_code;       /* of the usage error that otx_session_begin found */

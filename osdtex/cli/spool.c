@@ -92,18 +92,18 @@ read_pipe(const char *path)
 static bool
 take(otx_flag_values *values, const char **text, size_t prefix)
 {
-    otx_flag_spool *spool = &values->spools[values->spool_count];
+    otx_flag_spool *spool = &values->inputs.spools[values->inputs.spool_count];
     int fd;
 
     if (!*text || !is_pipe(*text + prefix))
         return true;
-    for (int i = 0; i < values->spool_count; ++i)
-        if (strcmp(values->spools[i].name, *text) == 0)
+    for (int i = 0; i < values->inputs.spool_count; ++i)
+        if (strcmp(values->inputs.spools[i].name, *text) == 0)
         {
-            *text = values->spools[i].text;
+            *text = values->inputs.spools[i].text;
             return true;
         }
-    if (values->spool_count == OTX_FLAG_SPOOLS_MAX ||
+    if (values->inputs.spool_count == OTX_FLAG_SPOOLS_MAX ||
         prefix + 32 > sizeof spool->text)
     {
         fprintf(stderr, "osdtex: error: too many inputs are pipes\n");
@@ -123,7 +123,7 @@ take(otx_flag_values *values, const char **text, size_t prefix)
     spool->name = *text;
     spool->prefix = prefix;
     *text = spool->text;
-    ++values->spool_count;
+    ++values->inputs.spool_count;
     return true;
 }
 
@@ -155,9 +155,9 @@ otx_spool_inputs(otx_flag_values *values)
 const char *
 otx_spool_name(const otx_flag_values *values, const char *path)
 {
-    for (int i = 0; path && i < values->spool_count; ++i)
+    for (int i = 0; path && i < values->inputs.spool_count; ++i)
     {
-        const otx_flag_spool *spool = &values->spools[i];
+        const otx_flag_spool *spool = &values->inputs.spools[i];
 
         if (strcmp(spool->text + spool->prefix, path) == 0)
             return spool->name + spool->prefix;

@@ -36,16 +36,18 @@ look_for_files(
     osdtex_status status;
 
     /* Where it is not there yet, a texture of its own is all that is known. */
-    if (!values->saved || access(values->saved, R_OK) != 0 ||
-        otx_saved_files_take(&silent, values) != OSDTEX_OK)
-        values->of_saved.exemplars += values->of_saved.exemplars == 0;
+    if (!values->inputs.saved.path ||
+        access(values->inputs.saved.path, R_OK) != 0 ||
+        otx_saved_files_take(&silent, &values->inputs.saved) != OSDTEX_OK)
+        values->inputs.saved.exemplars += values->inputs.saved.exemplars == 0;
     status = otx_material_flags_take(
         &silent, values, 1, &r->exemplar_options, &r->material);
     if (status == OSDTEX_ERROR_ARGUMENT)
         return status;
-    otx_also_flags_find(context, values, &r->also);
-    return values->saved && !otx_map_request_name(r) ? OSDTEX_ERROR_ARGUMENT
-                                                     : OSDTEX_OK;
+    otx_also_flags_find(context, &values->inputs, &r->also);
+    return values->inputs.saved.path && !otx_map_request_name(r)
+               ? OSDTEX_ERROR_ARGUMENT
+               : OSDTEX_OK;
 }
 
 /* Of a tile only its own textures; the texts are like those of other tiles. */
@@ -66,7 +68,7 @@ list_files(
     out->is_shared = fine && r->bake_options.udim != 0;
     otx_material_flags_destroy(&r->material);
     otx_also_flags_destroy(&r->also);
-    otx_saved_files_free(values);
+    otx_saved_files_free(&values->inputs.saved);
     return fine && !out->inputs.out_of_memory && !out->outputs.out_of_memory;
 }
 
