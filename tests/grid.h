@@ -10,6 +10,37 @@
 #include "mapping/mapping.h"
 #include "surface/surface.h"
 
+/* The corners and sides of face (x, y), counter-clockwise. */
+static inline void
+test_grid_face(
+    int32_t nx, int32_t ny, int32_t f, int32_t corner[4], int32_t edge[4])
+{
+    const int32_t row = nx + 1, across = nx * (ny + 1);
+    const int32_t v = f / nx * row + f % nx;
+    const int32_t corners[4] = {v, v + 1, v + row + 1, v + row};
+    const int32_t edges[4] = {f, across + v + 1, f + nx, across + v};
+
+    memcpy(corner, corners, sizeof corners);
+    memcpy(edge, edges, sizeof edges);
+}
+
+/* The ends of all edges: those along x first. */
+static inline void
+test_grid_edges(int32_t nx, int32_t ny, int32_t *edge_verts)
+{
+    const int32_t row = nx + 1, across = nx * (ny + 1);
+
+    for (int32_t e = 0; e < across + ny * row; ++e)
+    {
+        const bool flat = e < across;
+        const int32_t x = flat ? e % nx : (e - across) % row;
+        const int32_t y = flat ? e / nx : (e - across) / row;
+
+        edge_verts[2 * e] = y * row + x;
+        edge_verts[2 * e + 1] = y * row + x + (flat ? 1 : row);
+    }
+}
+
 /* nx * ny squares of side `step` in the plane z = 0, face (x, y) at
  * y * nx + x, its corner 0 at its lower left, counter-clockwise. */
 static inline otx_surface *
@@ -22,31 +53,23 @@ test_grid_create(otx_arena *arena, int32_t nx, int32_t ny, double step)
     int32_t *face_verts = OTX_NEW(arena, int32_t, 4 * faces);
     int32_t *face_edges = OTX_NEW(arena, int32_t, 4 * faces);
     int32_t *edge_verts = OTX_NEW(arena, int32_t, 2 * edges);
-    int32_t *edge_faces = OTX_NEW(arena, int32_t, 2 * edges);
+    int32_t *edge_faces = memset(
+        OTX_NEW(arena, int32_t, 2 * edges), -1,
+        2 * (size_t)edges * sizeof(int32_t));
     otx_level *level = OTX_ZNEW(arena, otx_level, 1);
-    otx_surface *surface = OTX_ZNEW(arena, otx_surface, 1);
+    otx_surface *surface = OTX_NEW(arena, otx_surface, 1);
 
     for (int32_t v = 0; v < verts; ++v)
     {
         points[3 * v] = (float)(step * (v % row));
         points[3 * v + 1] = (float)(step * (v / row));
     }
-    for (int32_t e = 0; e < edges; ++e)
-    {
-        const bool flat = e < across;
-        const int32_t x = flat ? e % nx : (e - across) % row;
-        const int32_t y = flat ? e / nx : (e - across) / row;
-
-        edge_verts[2 * e] = y * row + x;
-        edge_verts[2 * e + 1] = y * row + x + (flat ? 1 : row);
-        edge_faces[2 * e] = edge_faces[2 * e + 1] = -1;
-    }
+    test_grid_edges(nx, ny, edge_verts);
     for (int32_t f = 0; f < faces; ++f)
     {
-        const int32_t x = f % nx, y = f / nx, v = y * row + x;
-        const int32_t corner[4] = {v, v + 1, v + row + 1, v + row};
-        const int32_t edge[4] = {f, across + v + 1, f + nx, across + v};
+        int32_t corner[4], edge[4];
 
+        test_grid_face(nx, ny, f, corner, edge);
         face_first[f] = 4 * f;
         for (int k = 0; k < 4; ++k)
         {
@@ -69,11 +92,12 @@ test_grid_create(otx_arena *arena, int32_t nx, int32_t ny, double step)
         .face_hole = OTX_ZNEW(arena, uint8_t, faces),
         .face_cage = OTX_ZNEW(arena, int32_t, faces),
     };
-    surface->level_count = 1;
-    surface->levels = level;
-    surface->points = points;
-    surface->area = faces * step * step;
-    surface->mean_edge_length = step;
+    *surface = (otx_surface){
+        .level_count = 1,
+        .levels = level,
+        .points = points,
+        .area = faces * step * step,
+        .mean_edge_length = step};
     return surface;
 }
 

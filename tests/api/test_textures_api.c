@@ -1,125 +1,8 @@
-/* test_textures_api.c -- a bake in memory is the bake in the files, in one
- * piece or in blocks, and what cannot be baked is refused. */
-#include "meter.h"
+/* test_textures_api.c -- a bake in memory is the bake in the files, and what
+ * cannot be baked is refused. */
+#include "textures_scene.h"
 
-#include <math.h>
-#include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
-enum
-{
-    TEXTURES = 6,
-    LEVELS = 7, /* 96 48 24 12 6 3 1 */
-    SIDE = 96   /* more than a block, and no whole number of them */
-};
-
-typedef struct scene
-{
-    osdtex_context *context;
-    osdtex_mapping *mapping;
-    osdtex_textures *textures;
-} scene;
-
-static const uint32_t ALL = OSDTEX_BAKE_PATCH | OSDTEX_BAKE_UV |
-                            OSDTEX_BAKE_STRETCH | OSDTEX_BAKE_SEAM |
-                            OSDTEX_BAKE_SOURCE;
-
-static osdtex_bake_options
-small_bake(void)
-{
-    osdtex_bake_options options = osdtex_bake_options_default();
-
-    options.resolution = SIDE;
-    options.uvs = OSDTEX_BAKE_UVS_ATLAS;
-    options.margin = 4;
-    options.extras = ALL;
-    return options;
-}
-
-static osdtex_status
-map_small(osdtex_context *context, osdtex_mapping **out)
-{
-    osdtex_map_options map = osdtex_map_options_default();
-    osdtex_exemplar *exemplar = NULL;
-    osdtex_cage *cage = NULL;
-    osdtex_status status =
-        osdtex_cage_read(context, "models/cages/plane.obj", NULL, &cage);
-
-    map.level = 1;
-    map.scale = 4.0;
-    if (status == OSDTEX_OK)
-        status = osdtex_exemplar_read(
-            context, "models/exemplars/gravel_tile.png", NULL, &exemplar);
-    if (status == OSDTEX_OK)
-        status = osdtex_map(context, cage, exemplar, &map, out);
-    osdtex_exemplar_destroy(exemplar);
-    osdtex_cage_destroy(cage);
-    return status;
-}
-
-/* Maps for all tests: a mapping may be used with any context. */
-static int
-map_once(void **state)
-{
-    osdtex_mapping *mapping = NULL;
-    osdtex_context *context;
-
-    if (osdtex_context_create(NULL, &context) != OSDTEX_OK ||
-        map_small(context, &mapping) != OSDTEX_OK)
-        return 1;
-    osdtex_context_destroy(context);
-    *state = mapping;
-    return 0;
-}
-
-static int
-forget(void **state)
-{
-    osdtex_mapping_destroy(*state);
-    return 0;
-}
-
-static void
-open_scene(
-    void **state, scene *s, const osdtex_bake_options *options, int32_t threads)
-{
-    osdtex_context_options how = osdtex_context_options_default();
-
-    how.threads = threads;
-    s->mapping = *state;
-    assert_int_equal(osdtex_context_create(&how, &s->context), OSDTEX_OK);
-    if (osdtex_textures_create(s->context, s->mapping, options, &s->textures) !=
-        OSDTEX_OK)
-        fail_msg("%s", osdtex_context_error(s->context)->message);
-}
-
-static void
-close_scene(scene *s)
-{
-    osdtex_textures_destroy(s->textures);
-    osdtex_context_destroy(s->context);
-}
-
-static osdtex_image *
-image_of(const scene *s, int32_t texture, int32_t tile, int32_t level)
-{
-    const osdtex_texture_part part = {texture, tile, level};
-    osdtex_image *image;
-
-    assert_int_equal(
-        osdtex_textures_image(s->context, s->textures, &part, &image),
-        OSDTEX_OK);
-    return image;
-}
-
-static size_t
-values_of(const osdtex_image_info *info)
-{
-    return (size_t)info->width * (size_t)info->height * (size_t)info->channels;
-}
 
 /* ---- what there is ------------------------------------------------------- */
 
@@ -376,138 +259,6 @@ arrays_hold_what_images_hold(void **state)
     close_scene(&s);
 }
 
-/* What a sink has been given. */
-typedef struct taken
-{
-    pthread_t thread;
-    int32_t count;
-    int32_t stop_at; /* block at which it has enough; -1 never */
-    osdtex_bake_block last;
-    float *levels[TEXTURES][LEVELS]; /* of each texture */
-} taken;
-
-/* Whether `b` may come after `a`. */
-static bool
-is_in_order(const osdtex_bake_block *a, const osdtex_bake_block *b)
-{
-    if (a->texture != b->texture)
-        return b->texture == a->texture + 1;
-    if (a->level != b->level)
-        return b->level == a->level + 1;
-    return b->y < a->y || (b->y == a->y && b->x == a->x + a->width);
-}
-
-static bool
-take(void *user, const osdtex_bake_block *block)
-{
-    taken *t = user;
-    float *to = t->levels[block->texture][block->level];
-
-    assert_true(pthread_equal(t->thread, pthread_self()));
-    assert_true(t->count == 0 || is_in_order(&t->last, block));
-    assert_int_equal(block->udim, 1001);
-    assert_true(block->x >= 0 && block->x + block->width <= block->side);
-    assert_true(block->y >= 0 && block->y + block->height <= block->side);
-    for (int32_t y = 0; to && y < block->height; ++y)
-    {
-        const size_t row = (size_t)block->width * (size_t)block->channels;
-
-        memcpy(
-            to + ((size_t)(block->y + y) * (size_t)block->side +
-                  (size_t)block->x) *
-                     (size_t)block->channels,
-            block->pixels + (size_t)y * row, row * sizeof *to);
-    }
-    t->last = *block;
-    return t->count++ != t->stop_at;
-}
-
-static osdtex_bake_sink
-sink_for(taken *t)
-{
-    osdtex_bake_sink sink = osdtex_bake_sink_none();
-
-    *t = (taken){.thread = pthread_self(), .stop_at = -1};
-    sink.put = take;
-    sink.user = t;
-    return sink;
-}
-
-static void
-blocks_make_up_the_images(void **state)
-{
-    const osdtex_bake_options options = small_bake();
-    osdtex_bake_sink sink;
-    taken t;
-    scene s;
-
-    open_scene(state, &s, &options, 3);
-    sink = sink_for(&t);
-    sink.level_count = 0;
-    for (int i = 0; i < TEXTURES * LEVELS; ++i)
-        t.levels[i / LEVELS][i % LEVELS] =
-            calloc(SIDE * SIDE * 4, sizeof(float));
-    assert_int_equal(
-        osdtex_textures_bake(s.context, s.textures, &sink), OSDTEX_OK);
-    assert_int_equal(t.count, TEXTURES * (4 + LEVELS - 1));
-    for (int i = 0; i < TEXTURES * LEVELS; ++i)
-    {
-        osdtex_image *image = image_of(&s, i / LEVELS, 0, i % LEVELS);
-        const osdtex_image_info *info = osdtex_image_describe(image);
-
-        assert_memory_equal(
-            t.levels[i / LEVELS][i % LEVELS], info->pixels,
-            values_of(info) * sizeof(float));
-        osdtex_image_destroy(image);
-        free(t.levels[i / LEVELS][i % LEVELS]);
-    }
-    close_scene(&s);
-}
-
-static void
-a_sink_gets_what_it_asks_for(void **state)
-{
-    const osdtex_bake_options options = small_bake();
-    osdtex_bake_sink sink;
-    taken t;
-    scene s;
-
-    open_scene(state, &s, &options, 1);
-    sink = sink_for(&t);
-    sink.texture = 3;
-    sink.tile = 0;
-    sink.first_level = 2;
-    sink.level_count = 2;
-    assert_int_equal(
-        osdtex_textures_bake(s.context, s.textures, &sink), OSDTEX_OK);
-    assert_int_equal(t.count, 2);
-    assert_string_equal(t.last.name, "stretch");
-    assert_int_equal(t.last.level, 3);
-    assert_int_equal(t.last.side, SIDE / 8);
-    close_scene(&s);
-}
-
-static void
-a_sink_may_have_enough(void **state)
-{
-    const osdtex_bake_options options = small_bake();
-    osdtex_bake_sink sink;
-    taken t;
-    scene s;
-
-    open_scene(state, &s, &options, 2);
-    for (int32_t stop = 0; stop < 5; ++stop)
-    {
-        sink = sink_for(&t);
-        t.stop_at = stop;
-        assert_int_equal(
-            osdtex_textures_bake(s.context, s.textures, &sink),
-            OSDTEX_ERROR_CANCELLED);
-        assert_int_equal(t.count, stop + 1);
-    }
-    close_scene(&s);
-}
-
 static void
 threads_make_no_difference(void **state)
 {
@@ -628,8 +379,6 @@ what_is_not_there_is_refused(void **state)
     osdtex_bake_options options = small_bake();
     osdtex_textures *none = (osdtex_textures *)1;
     osdtex_image *image = (osdtex_image *)1;
-    osdtex_bake_sink sink;
-    taken t;
     scene s;
 
     open_scene(state, &s, &options, 1);
@@ -649,13 +398,6 @@ what_is_not_there_is_refused(void **state)
             s.context, s.textures, &(osdtex_texture_part){0, 0, 0}, NULL,
             1000000),
         wrong);
-    sink = sink_for(&t);
-    sink.put = NULL;
-    assert_int_equal(osdtex_textures_bake(s.context, s.textures, &sink), wrong);
-    assert_int_equal(osdtex_textures_bake(s.context, s.textures, NULL), wrong);
-    sink = sink_for(&t);
-    sink.first_level = LEVELS;
-    assert_int_equal(osdtex_textures_bake(s.context, s.textures, &sink), wrong);
     options.udim = 1099;
     assert_int_equal(
         osdtex_textures_create(s.context, s.mapping, &options, &none), wrong);
@@ -733,9 +475,6 @@ main(void)
         cmocka_unit_test(memory_holds_what_files_hold),
         cmocka_unit_test(maps_of_a_material_come_with_its_colour),
         cmocka_unit_test(arrays_hold_what_images_hold),
-        cmocka_unit_test(blocks_make_up_the_images),
-        cmocka_unit_test(a_sink_gets_what_it_asks_for),
-        cmocka_unit_test(a_sink_may_have_enough),
         cmocka_unit_test(threads_make_no_difference),
         cmocka_unit_test(contexts_share_a_handle),
         cmocka_unit_test(a_handle_keeps_its_mapping),

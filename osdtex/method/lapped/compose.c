@@ -472,7 +472,7 @@ put_figures(const composition *c)
 }
 
 otx_status
-otx_lapped_compose(otx_lapped *l, otx_mapping *out)
+otx_lapped_compose(const otx_lapped *l, otx_mapping *out)
 {
     composition c = {.l = l};
     int32_t *number = OTX_NEW(l->run->scratch, int32_t, l->paste_count + 1);

@@ -190,6 +190,6 @@ int64_t otx_lapped_mark(otx_lapped *l, const otx_lapped_paste *paste);
 otx_status otx_lapped_paste_all(otx_lapped *l);
 
 /* Makes the mapping of all pastes, without what nobody sees. */
-otx_status otx_lapped_compose(otx_lapped *l, otx_mapping *out);
+otx_status otx_lapped_compose(const otx_lapped *l, otx_mapping *out);
 
 #endif

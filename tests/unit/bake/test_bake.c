@@ -209,24 +209,66 @@ tear(otx_mapping *mapping, double x)
     }
 }
 
+enum
+{
+    BLEND_N = 2,
+    BLEND_SIDE = 256,
+    BLEND = 16
+};
+
+/* What sharpening takes off: a twelfth of what the neighbours are apart, of the
+ * ramp's bend at its ends, and of the half blend that margins lack where a seam
+ * runs into them.
+ *
+ *   d     texels from the tear
+ *   unit  texels to a cage face */
+static double
+bend_at(const expected *e, double d, double unit)
+{
+    const double rim = fabs(e->y - round(e->y)) * unit;
+
+    return rim < 1.0                         ? 0.1 / 12
+           : fabs(fabs(d) - BLEND / 2) < 1.5 ? 0.2 / BLEND / 12
+                                             : 0.0;
+}
+
+/* A texel of a bake that was torn at `x` and blended.
+ *
+ *   margin  texels beside the blocks that are looked at, too */
+static void
+check_blend(
+    const otx_layout *layout, const expected *e, double x, double margin,
+    const float *soft, const float *hard)
+{
+    const double unit = (layout->uvs[4] - layout->uvs[0]) * (double)BLEND_SIDE;
+    const double d = (e->x - x) * unit;
+    const double t = fmax(0.5 - fabs(d) / BLEND, 0.0);
+    const double shown =
+        0.25 + 0.5 * e->x / BLEND_N + 0.2 * (d > 0.0 ? 1.0 - t : t);
+
+    /* Margins are blended along their own rim only. */
+    if (!e->on_surface || e->beyond > margin || e->y < e->face / BLEND_N ||
+        e->y > e->face / BLEND_N + 1)
+        return;
+    if (fabs(*soft - shown) > 2e-3 + bend_at(e, d, unit))
+        fail_msg("torn at %g, %g: %g, not %g", x, d, (double)*soft, shown);
+    /* Sharpening looks one texel further. */
+    if (fabs(d) > BLEND / 2 + 1)
+        assert_true(*soft == *hard);
+}
+
+/* Within the blocks, and where blocks meet. */
 static void
 seams_are_blended_within_their_width(void **state)
 {
-    enum
-    {
-        N = 2,
-        SIDE = 256,
-        BLEND = 16
-    };
-    /* Within the blocks, and where blocks meet. */
-    const double tears[] = {0.5, 1.0};
+    const double tears[] = {0.5, 1.0}, margins[] = {0.0, 3.0};
 
     (void)state;
     for (int i = 0; i < 2; ++i)
     {
         otx_run *run = test_run_create();
-        const otx_surface *surface = flat_surface(run, N, 3);
-        otx_mapping *mapping = flat_mapping(run, surface, N);
+        const otx_surface *surface = flat_surface(run, BLEND_N, 3);
+        otx_mapping *mapping = flat_mapping(run, surface, BLEND_N);
         const otx_exemplar *exemplar = flat_ramp(run, 64);
         const otx_bake_options options = {
             .kind = OTX_TEXEL_COLOR, .seam_blend = BLEND};
@@ -234,43 +276,21 @@ seams_are_blended_within_their_width(void **state)
         tear(mapping, tears[i]);
 
         const otx_layout layout =
-            flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, 8);
+            flat_layout(run, mapping, OTX_LAYOUT_ATLAS, BLEND_SIDE, 8);
         const flat_levels hard =
             flat_bake(run, mapping, exemplar, &layout, &COLOR, 0);
         const flat_levels soft =
             flat_bake(run, mapping, exemplar, &layout, &options, 0);
-        const double unit = (layout.uvs[4] - layout.uvs[0]) * (double)SIDE;
 
-        for (int32_t y = 0; y < SIDE; ++y)
-            for (int32_t x = 0; x < SIDE; ++x)
+        for (int32_t y = 0; y < BLEND_SIDE; ++y)
+            for (int32_t x = 0; x < BLEND_SIDE; ++x)
             {
-                const expected e = expect(&layout, N, SIDE, x, y);
-                const double d = (e.x - tears[i]) * unit; /* texels */
-                const double t = fmax(0.5 - fabs(d) / BLEND, 0.0);
-                const double shown =
-                    0.25 + 0.5 * e.x / N + 0.2 * (d > 0.0 ? 1.0 - t : t);
-                const float *p = otx_image_at(&soft.levels[0], x, y);
+                const expected e = expect(&layout, BLEND_N, BLEND_SIDE, x, y);
 
-                /* Margins are blended along their own rim only. */
-                if (!e.on_surface || e.beyond > (i == 0 ? 0.0 : 3.0) ||
-                    e.y < e.face / N || e.y > e.face / N + 1)
-                    continue;
-                /* Sharpening takes off a twelfth of what the neighbours are
-                 * apart: of the ramp's bend at its ends, and of the half blend
-                 * that margins lack where a seam runs into them. */
-                const double rim = fabs(e.y - round(e.y)) * unit;
-                const double bend = rim < 1.0 ? 0.1 / 12
-                                    : fabs(fabs(d) - BLEND / 2) < 1.5
-                                        ? 0.2 / BLEND / 12
-                                        : 0.0;
-
-                if (fabs(p[0] - shown) > 2e-3 + bend)
-                    fail_msg(
-                        "tear %d texel %d %d at %g: %g, not %g", i, x, y, d,
-                        (double)p[0], shown);
-                /* Sharpening looks one texel further. */
-                if (fabs(d) > BLEND / 2 + 1)
-                    assert_true(p[0] == otx_image_at(&hard.levels[0], x, y)[0]);
+                check_blend(
+                    &layout, &e, tears[i], margins[i],
+                    otx_image_at(&soft.levels[0], x, y),
+                    otx_image_at(&hard.levels[0], x, y));
             }
         test_run_destroy(run);
     }

@@ -49,6 +49,30 @@ struct reference_osd
     std::vector<Primvar<2>> uvs;
 };
 
+/* All levels of points and of face-varying values, each from the one before. */
+static void
+reference_osd_interpolate(
+    reference_osd *r, const Far::PrimvarRefiner &primvars, int level,
+    std::vector<Primvar<3>> &points, std::vector<Primvar<2>> &uvs)
+{
+    for (int l = 1; l <= level; ++l)
+    {
+        const Far::TopologyLevel &at = r->refiner->GetLevel(l);
+        std::vector<Primvar<3>> to(static_cast<size_t>(at.GetNumVertices()));
+
+        primvars.Interpolate(l, points, to);
+        points.swap(to);
+        if (uvs.empty())
+            continue;
+
+        std::vector<Primvar<2>> uv_to(
+            static_cast<size_t>(at.GetNumFVarValues(0)));
+
+        primvars.InterpolateFaceVarying(l, uvs, uv_to, 0);
+        uvs.swap(uv_to);
+    }
+}
+
 reference_osd *
 reference_osd_create(
     const otx_osd_mesh *mesh, const float *points, const float *uvs, int level)
@@ -95,22 +119,7 @@ reference_osd_create(
     Far::PrimvarRefiner primvars(*r->refiner);
     std::vector<Primvar<3>> from = load<3>(points, mesh->vert_count);
     std::vector<Primvar<2>> uv_from = load<2>(uvs, mesh->uv_count);
-    for (int l = 1; l <= level; ++l)
-    {
-        const Far::TopologyLevel &at = r->refiner->GetLevel(l);
-        std::vector<Primvar<3>> to(static_cast<size_t>(at.GetNumVertices()));
-
-        primvars.Interpolate(l, from, to);
-        from.swap(to);
-        if (mesh->uv_count > 0)
-        {
-            std::vector<Primvar<2>> uv_to(
-                static_cast<size_t>(at.GetNumFVarValues(0)));
-
-            primvars.InterpolateFaceVarying(l, uv_from, uv_to, 0);
-            uv_from.swap(uv_to);
-        }
-    }
+    reference_osd_interpolate(r, primvars, level, from, uv_from);
     r->refined = from;
     r->limit.resize(from.size());
     r->tan1.resize(from.size());

@@ -78,67 +78,67 @@ embree_edges_count_from_one(void **state)
     assert_int_equal(obj.creases.line[1], 7);
 }
 
+static const struct
+{
+    const char *line;
+    const char *words;
+} MISTAKES[] = {
+    {"t", "no name"},
+    {"t crease", "as in 2/1/0"},
+    {"t crease 2/1", "as in 2/1/0"},
+    {"t crease 2/1/0/0 0 1 1", "as in 2/1/0"},
+    {"t crease 2/1/x 0 1 1", "as in 2/1/0"},
+    {"t crease -2/1/0 0 1 1", "as in 2/1/0"},
+    {"t crease 99999999999999999999/1/0 0", "as in 2/1/0"},
+    {"t crease 999999999/1/0 0", "999999999/1/0 values, and 1 follow"},
+    {"t crease 9223372036854775807/9223372036854775807/2 0", "1 follow"},
+    {"t crease 2/1/0 0 1 2 3", "and 4 follow"},
+    {"t crease 2/1/0 0 1", "and 2 follow"},
+    {"t crease 3/1/0 0 1 2 1", "2n/1/0 or 2n/n/0 are expected"},
+    {"t crease 4/3/0 0 1 2 3 1 1 1", "are expected"},
+    {"t crease 2/0/0 0 1", "are expected"},
+    {"t crease 0/1/0 1", "are expected"},
+    {"t crease 2/1/1 0 1 1 x", "are expected"},
+    {"t crease 2/1/0 0 -1 1", "not between 0"},
+    {"t crease 2/1/0 0 4 1", "vertex 4, counted from 0"},
+    {"t crease 2/1/0 0 1.5 1", "not a number"},
+    {"t crease 2/1/0 0 1 nan", "not a finite number"},
+    {"t crease 2/1/0 0 1 1e99", "too large"},
+    {"t corner 1/2/0 0 1 1", "n/1/0 or n/n/0"},
+    {"t corner 1/1/0 4 1", "vertex 4"},
+    {"t hole 1/0/0 1", "face 1, counted from 0"},
+    {"t hole 1/1/0 0 1", "n/0/0"},
+    {"t interpolateboundary 1/0/0 3", "not between 0 and 2"},
+    {"t interpolateboundary 2/0/0 1 1", "1/0/0 are expected"},
+    {"t facevaryinginterpolateboundary 1/0/0 6", "not between 0 and 5"},
+    {"t creasemethod 0/0/1 smooth", "normal and chaikin, not 'smooth'"},
+    {"t creasemethod 1/0/0 1", "0/0/1 are expected"},
+    {"ec 1 1", "two vertices"},
+    {"ec 1 1 2 3", "two vertices"},
+    {"ec x 1 2", "not a number"},
+    {"ec 1 0 2", "counts from 1"},
+    {"ec 1 1 5", "vertex 4, counted from 0"},
+    {"ec 1 1 -5", "there are 4"}};
+
 static void
 errors_name_the_line(void **state)
 {
-    static const struct
-    {
-        const char *line;
-        const char *words;
-    } cases[] = {
-        {"t", "no name"},
-        {"t crease", "as in 2/1/0"},
-        {"t crease 2/1", "as in 2/1/0"},
-        {"t crease 2/1/0/0 0 1 1", "as in 2/1/0"},
-        {"t crease 2/1/x 0 1 1", "as in 2/1/0"},
-        {"t crease -2/1/0 0 1 1", "as in 2/1/0"},
-        {"t crease 99999999999999999999/1/0 0", "as in 2/1/0"},
-        {"t crease 999999999/1/0 0", "999999999/1/0 values, and 1 follow"},
-        {"t crease 9223372036854775807/9223372036854775807/2 0", "1 follow"},
-        {"t crease 2/1/0 0 1 2 3", "and 4 follow"},
-        {"t crease 2/1/0 0 1", "and 2 follow"},
-        {"t crease 3/1/0 0 1 2 1", "2n/1/0 or 2n/n/0 are expected"},
-        {"t crease 4/3/0 0 1 2 3 1 1 1", "are expected"},
-        {"t crease 2/0/0 0 1", "are expected"},
-        {"t crease 0/1/0 1", "are expected"},
-        {"t crease 2/1/1 0 1 1 x", "are expected"},
-        {"t crease 2/1/0 0 -1 1", "not between 0"},
-        {"t crease 2/1/0 0 4 1", "vertex 4, counted from 0"},
-        {"t crease 2/1/0 0 1.5 1", "not a number"},
-        {"t crease 2/1/0 0 1 nan", "not a finite number"},
-        {"t crease 2/1/0 0 1 1e99", "too large"},
-        {"t corner 1/2/0 0 1 1", "n/1/0 or n/n/0"},
-        {"t corner 1/1/0 4 1", "vertex 4"},
-        {"t hole 1/0/0 1", "face 1, counted from 0"},
-        {"t hole 1/1/0 0 1", "n/0/0"},
-        {"t interpolateboundary 1/0/0 3", "not between 0 and 2"},
-        {"t interpolateboundary 2/0/0 1 1", "1/0/0 are expected"},
-        {"t facevaryinginterpolateboundary 1/0/0 6", "not between 0 and 5"},
-        {"t creasemethod 0/0/1 smooth", "normal and chaikin, not 'smooth'"},
-        {"t creasemethod 1/0/0 1", "0/0/1 are expected"},
-        {"ec 1 1", "two vertices"},
-        {"ec 1 1 2 3", "two vertices"},
-        {"ec x 1 2", "not a number"},
-        {"ec 1 0 2", "counts from 1"},
-        {"ec 1 1 5", "vertex 4, counted from 0"},
-        {"ec 1 1 -5", "there are 4"}};
-
     (void)state;
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
+    for (size_t i = 0; i < sizeof MISTAKES / sizeof *MISTAKES; ++i)
     {
         otx_run *run = test_run_create_with(NULL, 1);
         char text[256];
         osdtex_diagnostic d;
         otx_obj obj;
 
-        snprintf(text, sizeof text, SQUARE "%s\n", cases[i].line);
+        snprintf(text, sizeof text, SQUARE "%s\n", MISTAKES[i].line);
         assert_int_equal(
             otx_obj_parse(run, "t.obj", text, strlen(text), &obj),
             OSDTEX_ERROR_FORMAT);
         otx_diagnostics_get(run->diagnostics, 0, &d);
         assert_int_equal(d.line, 6);
-        if (!strstr(d.message, cases[i].words))
-            fail_msg("\"%s\" lacks \"%s\"", d.message, cases[i].words);
+        if (!strstr(d.message, MISTAKES[i].words))
+            fail_msg("\"%s\" lacks \"%s\"", d.message, MISTAKES[i].words);
         test_run_destroy(run);
     }
 }

@@ -53,28 +53,37 @@ slow(
     return sum / mass;
 }
 
-/* voids: of five texels. */
-static void
-compare(otx_run *run, uint64_t voids, bool sparse)
+/* A pattern of noise with a guide, and a canvas of other noise with
+ * holes: `voids` of five texels. */
+typedef struct scene
 {
     otx_image lab, guide;
     otx_pattern pattern;
     otx_canvas_stack stack;
+} scene;
+
+static scene *
+make_scene(otx_run *run, uint64_t voids)
+{
+    scene *s = OTX_ZNEW(run->arena, scene, 1);
     otx_synth_match *start = OTX_ZNEW(run->arena, otx_synth_match, SIDE * SIDE);
     uint8_t *kinds = OTX_NEW(run->arena, uint8_t, SIDE * SIDE);
-    otx_synth_options options = otx_synth_mending();
+    const otx_synth_options options = otx_synth_mending();
+    const otx_synth_chart chart = {
+        .width = SIDE, .height = SIDE, .kinds = kinds, .matches = start};
 
     assert_int_equal(
-        otx_image_create(run, run->arena, SIDE, SIDE, 3, &lab), OSDTEX_OK);
+        otx_image_create(run, run->arena, SIDE, SIDE, 3, &s->lab), OSDTEX_OK);
     assert_int_equal(
-        otx_image_create(run, run->arena, SIDE, SIDE, 2, &guide), OSDTEX_OK);
-    paint(&lab, 1);
-    paint(&guide, 2);
+        otx_image_create(run, run->arena, SIDE, SIDE, 2, &s->guide), OSDTEX_OK);
+    paint(&s->lab, 1);
+    paint(&s->guide, 2);
     /* Edges are left out, so that the slow one need not know them. */
     assert_int_equal(
         otx_pattern_build(
             run, run->arena,
-            &(otx_pattern_input){&lab, &guide, true, true, 0.0, 1}, &pattern),
+            &(otx_pattern_input){&s->lab, &s->guide, true, true, 0.0, 1},
+            &s->pattern),
         OSDTEX_OK);
     for (int32_t i = 0; i < SIDE * SIDE; ++i)
     {
@@ -85,19 +94,20 @@ compare(otx_run *run, uint64_t voids, bool sparse)
             (float)(bits >> 8 & 63), (float)(bits >> 16 & 63), 1.0f, 0.0f};
     }
     assert_int_equal(
-        otx_canvas_build(
-            run, &pattern,
-            &(otx_synth_chart){
-                .width = SIDE,
-                .height = SIDE,
-                .kinds = kinds,
-                .matches = start},
-            &options, 1, &stack),
+        otx_canvas_build(run, &s->pattern, &chart, &options, 1, &s->stack),
         OSDTEX_OK);
-    stack.levels[0].sparse = sparse;
+    return s;
+}
+
+static void
+compare(otx_run *run, uint64_t voids, bool sparse)
+{
+    scene *s = make_scene(run, voids);
+    const otx_canvas *c = &s->stack.levels[0];
+
+    s->stack.levels[0].sparse = sparse;
     for (int32_t k = 0; k < 200; ++k)
     {
-        const otx_canvas *c = &stack.levels[0];
         const uint64_t bits = otx_random_bits(5, 2, (uint64_t)k);
         const double angle = 0.1 * k;
         const int32_t x = 4 + (int32_t)(bits % 56);
@@ -106,15 +116,13 @@ compare(otx_run *run, uint64_t voids, bool sparse)
             (float)(bits >> 20 & 63) + 0.3f, (float)(bits >> 30 & 63) + 0.6f,
             (float)cos(angle), (float)sin(angle)};
         const ptrdiff_t at = otx_canvas_index(c, x, y);
-        const float fast =
-            otx_window_cost(c, at, otx_window_frame_of(c, at, m), INFINITY);
-        const double wanted = slow(&lab, &guide, c, x, y, m);
+        const otx_window_frame frame = otx_window_frame_of(c, at, m);
+        const float fast = otx_window_cost(c, at, frame, INFINITY);
+        const double wanted = slow(&s->lab, &s->guide, c, x, y, m);
 
         assert_float_equal(fast, wanted, 2e-3 * wanted);
         /* Ended early it is above the limit. */
-        assert_true(
-            otx_window_cost(c, at, otx_window_frame_of(c, at, m), 0.5f * fast) >
-            0.5f * fast);
+        assert_true(otx_window_cost(c, at, frame, 0.5f * fast) > 0.5f * fast);
     }
 }
 
