@@ -1,7 +1,7 @@
 /* exemplar_handle.c -- a picture from file or memory, its colours resolved. */
 #include "api/exemplar_handle.h"
 
-#include "analysis/analysis.h"
+#include "analysis/exemplar_analysis.h"
 #include "api/call.h"
 #include "api/companion_pictures.h"
 #include "api/picture_source.h"
@@ -81,8 +81,7 @@ crop_to_periods(
     otx_period p;
 
     *whole = true;
-    OTX_TRY(otx_analysis_run(
-        run, &exemplar->lab, exemplar->wrap_x, exemplar->wrap_y, &a));
+    OTX_TRY(otx_exemplar_analysis(run, exemplar, &a));
     if (a.kind != OTX_ANALYSIS_LATTICE)
         return OSDTEX_OK;
     *whole = otx_period_find(exemplar, a.generators, &p);
@@ -456,7 +455,7 @@ analyse(
     const otx_exemplar *e = &exemplar->exemplar;
     otx_analysis a;
 
-    OTX_TRY(otx_analysis_run(run, &e->lab, e->wrap_x, e->wrap_y, &a));
+    OTX_TRY(otx_exemplar_analysis(run, e, &a));
     *out = (osdtex_exemplar_structure){
         .name = otx_analysis_name(a.kind),
         .symmetry = a.symmetry,

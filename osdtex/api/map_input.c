@@ -1,6 +1,7 @@
 /* map_input.c -- what a user says about fields and the exemplar, checked. */
 #include "api/map_input.h"
 
+#include "analysis/exemplar_analysis.h"
 #include "api/call.h"
 #include "api/field_given.h"
 #include "bridge/charconv.h"
@@ -242,8 +243,7 @@ otx_map_input_analysis(
     *out = a;
     if (has_generators && kind == OTX_ANALYSIS_LATTICE)
         return otx_analysis_force_lattice(run, &exemplar->lab, generators, a);
-    OTX_TRY(otx_analysis_run(
-        run, &exemplar->lab, exemplar->wrap_x, exemplar->wrap_y, a));
+    OTX_TRY(otx_exemplar_analysis(run, exemplar, a));
     if (kind == OTX_ANALYSIS_LATTICE && a->kind != kind)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,

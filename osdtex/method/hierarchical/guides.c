@@ -1,6 +1,7 @@
 /* guides.c -- the fields that patches follow, and the sizes they have. */
 #include "method/hierarchical/guides.h"
 
+#include "analysis/exemplar_analysis.h"
 #include "method/density.h"
 #include "method/hierarchical/first_direction.h"
 #include "method/hierarchical/settings.h"
@@ -22,8 +23,7 @@ make_guide(
     if (known)
         a = *known;
     else
-        OTX_TRY(otx_analysis_run(
-            run, &exemplar->lab, exemplar->wrap_x, exemplar->wrap_y, &a));
+        OTX_TRY(otx_exemplar_analysis(run, exemplar, &a));
     *kind = otx_analysis_name(a.kind);
     if (a.kind == OTX_ANALYSIS_ISOTROPIC)
         return OSDTEX_OK;

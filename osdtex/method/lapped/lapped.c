@@ -2,6 +2,7 @@
  * is covered [Praun00]. */
 #include "method/lapped/lapped.h"
 
+#include "analysis/exemplar_analysis.h"
 #include "method/density.h"
 #include "method/lapped/whole.h"
 #include "seam/unit.h"
@@ -84,9 +85,7 @@ make_guide(otx_lapped *l)
     if (request->analysis)
         a = *request->analysis;
     else
-        OTX_TRY(otx_analysis_run(
-            l->run, &l->exemplar->lab, l->exemplar->wrap_x, l->exemplar->wrap_y,
-            &a));
+        OTX_TRY(otx_exemplar_analysis(l->run, l->exemplar, &a));
     if (l->job->figures)
         l->job->figures->classes[0] = otx_analysis_name(a.kind);
     OTX_TRY(otx_lapped_find_features(l, a.kind));

@@ -1,11 +1,25 @@
 /* coursing.c -- whether an exemplar is laid course by course, and which way. */
 #include "method/material/coursing.h"
 
+#include "analysis/exemplar_analysis.h"
+
 /* Lattices that hold together along their courses are laid as a whole. */
 static const double LOOSE = 0.3;
 
 /* Factor that makes it worth while to lay courses across the field. */
 static const double CLEARLY = 1.1;
+
+/* In lightness, or in what tells more in the space that is asked for. */
+static otx_status
+find_courses(otx_run *run, const otx_exemplar *e, otx_courses *out)
+{
+    otx_image channel;
+
+    OTX_TRY(otx_courses_find(run, &e->lab, out));
+    if (out->count > 0 || !otx_exemplar_analysis_channel(e, &channel))
+        return OSDTEX_OK;
+    return otx_courses_find(run, &channel, out);
+}
 
 /* Whether the exemplar is laid course by course; its cell then is a course of
  * the whole picture's length. */
@@ -21,7 +35,7 @@ otx_coursing_choose(otx_material *m)
     if (wish == OTX_COURSING_OFF)
         return OSDTEX_OK;
     if (e->wrap_x && e->wrap_y)
-        OTX_TRY(otx_courses_find(m->job->run, &e->lab, &found));
+        OTX_TRY(find_courses(m->job->run, e, &found));
     else
         found.count = 0;
     if (wish == OTX_COURSING_ON && found.count == 0)

@@ -2,6 +2,7 @@
  */
 #include "method/material/coursing.h"
 
+#include "analysis/exemplar_analysis.h"
 #include "seam/unit.h"
 
 #include <stdio.h>
@@ -14,9 +15,8 @@ choose_lattice(otx_material *m)
     if (m->job->request->analysis)
         m->analysis = *m->job->request->analysis;
     else
-        OTX_TRY(otx_analysis_run(
-            m->job->run, &m->job->exemplars->lab, m->job->exemplars->wrap_x,
-            m->job->exemplars->wrap_y, &m->analysis));
+        OTX_TRY(otx_exemplar_analysis(
+            m->job->run, m->job->exemplars, &m->analysis));
     if (m->analysis.kind != OTX_ANALYSIS_LATTICE &&
         m->settings->courses != OTX_COURSING_ON)
         return otx_fail(
@@ -203,7 +203,7 @@ applicable(const otx_job *job, otx_suitability *out)
     if (job->request->analysis)
         a = *job->request->analysis;
     else
-        OTX_TRY(otx_analysis_run(job->run, &e->lab, e->wrap_x, e->wrap_y, &a));
+        OTX_TRY(otx_exemplar_analysis(job->run, e, &a));
     if (a.kind != OTX_ANALYSIS_LATTICE)
     {
         snprintf(

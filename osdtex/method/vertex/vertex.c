@@ -2,6 +2,7 @@
  * room synth on charts that cover it. */
 #include "method/vertex/vertex.h"
 
+#include "analysis/exemplar_analysis.h"
 #include "method/density.h"
 #include "method/vertex/turk.h"
 #include "seam/unit.h"
@@ -68,8 +69,7 @@ analyse(otx_vertex *v)
     if (v->job->request->analysis)
         v->analysis = *v->job->request->analysis;
     else
-        OTX_TRY(otx_analysis_run(
-            v->run, &e->lab, e->wrap_x, e->wrap_y, &v->analysis));
+        OTX_TRY(otx_exemplar_analysis(v->run, e, &v->analysis));
     if (v->job->figures)
         v->job->figures->classes[0] = otx_analysis_name(v->analysis.kind);
     return OSDTEX_OK;
