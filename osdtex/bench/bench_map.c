@@ -5,6 +5,7 @@
  * reading and writing files are rows of their own. Every leaf face is about
  * ten texels wide, so that more faces are more texture to lay, not the same
  * texture in smaller pieces. */
+#include "bench/general_mesh.h"
 #include "bench/map_job.h"
 #include "bench/shapes.h"
 
@@ -49,6 +50,30 @@ read_cage(otx_run *run, const bench_options *options, otx_cage *out)
 {
     return bench_shapes_read(run, options->cage, out);
 }
+
+static otx_status
+make_bunny(otx_run *run, const bench_options *options, otx_cage *out)
+{
+    (void)options;
+    return bench_general_mesh(run, BENCH_GENERAL_BUNNY, out);
+}
+
+static otx_status
+make_pumpkin(otx_run *run, const bench_options *options, otx_cage *out)
+{
+    (void)options;
+    return bench_general_mesh(run, BENCH_GENERAL_PUMPKIN, out);
+}
+
+static otx_status
+make_triceratops(otx_run *run, const bench_options *options, otx_cage *out)
+{
+    (void)options;
+    return bench_general_mesh(run, BENCH_GENERAL_TRICERATOPS, out);
+}
+
+static const bench_map_cage GENERAL[BENCH_GENERAL_COUNT] = {
+    make_bunny, make_pumpkin, make_triceratops};
 
 /* -- figures ------------------------------------------------------------- */
 
@@ -262,6 +287,42 @@ time_growth(const bench_options *options, bench_report *report)
     return right;
 }
 
+/* A mesh without a hierarchy, as published. */
+static bench_map_job
+general_job(const bench_options *options, int kind)
+{
+    return (bench_map_job){
+        .options = options,
+        .cage = GENERAL[kind],
+        .leaf = LEAF_TEXELS,
+        .exemplar_size = EXEMPLAR,
+        .paper = true};
+}
+
+static bool
+time_general(const bench_options *options, bench_report *report)
+{
+    timing timings[BENCH_GENERAL_COUNT];
+    bool right = true;
+
+    bench_report_begin(
+        report,
+        "general: meshes without a hierarchy in mode paper, exemplar 256 x 256",
+        COLUMNS);
+    for (int k = 0; k < BENCH_GENERAL_COUNT; ++k)
+    {
+        const bench_map_job job = general_job(options, k);
+
+        right =
+            right && time_job(
+                         bench_general_mesh_name((bench_general_kind)k), &job,
+                         bench_row_repeat(options, 3), report, &timings[k]);
+    }
+    if (right && options->threads > 1)
+        write_ratios(options, timings, BENCH_GENERAL_COUNT, report);
+    return right;
+}
+
 /* Same bytes from 1, 2 and 8 threads; every face covered, none flipped. */
 static bool
 verify_job(const char *label, const bench_map_job *template)
@@ -320,6 +381,29 @@ const bench_row bench_row_map = {
                "34 176, stage by stage.",
     .time = time_map,
     .verify = verify_map,
+};
+
+static bool
+verify_general(const bench_options *options)
+{
+    bool right = true;
+
+    for (int k = 0; k < BENCH_GENERAL_COUNT; ++k)
+    {
+        const bench_map_job job = general_job(options, k);
+
+        right &=
+            verify_job(bench_general_mesh_name((bench_general_kind)k), &job);
+    }
+    return right;
+}
+
+const bench_row bench_row_general = {
+    .name = "general",
+    .summary = "Meshes of 2962, 10 000 and 5660 triangles without a hierarchy, "
+               "in the mode that is as published.",
+    .time = time_general,
+    .verify = verify_general,
 };
 
 const bench_row bench_row_growth = {

@@ -28,6 +28,7 @@ extern const bench_row bench_row_surface;
 extern const bench_row bench_row_stages;
 extern const bench_row bench_row_map;
 extern const bench_row bench_row_tile;
+extern const bench_row bench_row_general;
 extern const bench_row bench_row_growth;
 extern const bench_row bench_row_write;
 extern const bench_row bench_row_exr;

@@ -17,9 +17,10 @@
 #include <unistd.h>
 
 static const bench_row *const ROWS[] = {
-    &bench_row_match, &bench_row_scipy,  &bench_row_surface, &bench_row_stages,
-    &bench_row_map,   &bench_row_growth, &bench_row_tile,    &bench_row_write,
-    &bench_row_exr,   &bench_row_field,  &bench_row_edit,    &bench_row_bake,
+    &bench_row_match, &bench_row_scipy,   &bench_row_surface, &bench_row_stages,
+    &bench_row_map,   &bench_row_general, &bench_row_growth,  &bench_row_tile,
+    &bench_row_write, &bench_row_exr,     &bench_row_field,   &bench_row_edit,
+    &bench_row_bake,
 };
 
 #ifdef NDEBUG

@@ -76,6 +76,10 @@ map(otx_run *run, const bench_map_job *job, bench_map_result *out)
     if (!settings)
         return OSDTEX_ERROR_MEMORY;
     otx_option_defaults(method->options, method->option_count, settings);
+    if (job->paper)
+        OTX_TRY(otx_option_set(
+            run, method->options, method->option_count, settings, "mode",
+            "paper"));
     OTX_TRY(job->cage(run, job->options, &cage));
     OTX_TRY(make_exemplar(run, job, &exemplar));
     start = bench_stopwatch_now();

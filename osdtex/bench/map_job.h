@@ -19,6 +19,7 @@ typedef struct bench_map_job
     double leaf;           /* edge of a leaf face, texels */
     int32_t exemplar_size; /* pixels a side; 0: the file of the options */
     int32_t threads;
+    bool paper; /* as published, mode=paper */
 } bench_map_job;
 
 typedef struct bench_map_result
