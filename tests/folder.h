@@ -84,6 +84,26 @@ test_write_bytes(const char *path, const uint8_t *data, size_t bytes)
     assert_int_equal(fclose(file), 0);
 }
 
+static inline void
+test_put(const char *path, const char *text)
+{
+    test_write_bytes(path, (const uint8_t *)text, strlen(text));
+}
+
+/* Whether a file has this text; a short one. */
+static inline bool
+test_holds(const char *path, const char *text)
+{
+    char found[32] = "";
+    FILE *file = fopen(path, "r");
+
+    if (!file)
+        return false;
+    found[fread(found, 1, sizeof found - 1, file)] = '\0';
+    fclose(file);
+    return strcmp(found, text) == 0;
+}
+
 static inline char *
 test_read_text(otx_run *run, const char *path)
 {

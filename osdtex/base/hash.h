@@ -18,4 +18,16 @@ otx_hash_text(const void *data, size_t bytes, char text[OTX_HASH_TEXT_BYTES]);
  * or cannot be read: then `text` is "". */
 bool otx_hash_file(const char *path, char text[OTX_HASH_TEXT_BYTES]);
 
+/* Slots of a table for so many items: a power of two that leaves it at most
+ * half full. */
+static inline size_t
+otx_hash_table_size(size_t count)
+{
+    size_t size = 16;
+
+    while (size < 2 * count)
+        size *= 2;
+    return size;
+}
+
 #endif

@@ -158,3 +158,18 @@ otx_inputs_holds(const char *path, const char *word)
 
     return memmem(head, count, word, strlen(word)) != NULL;
 }
+
+bool
+otx_inputs_number(
+    const otx_flag_values *values, otx_flag_id id, int64_t low, int64_t high,
+    int64_t *out)
+{
+    const char *text = values->text[id];
+
+    if (!text || otx_value_int(text, low, high, out))
+        return true;
+    otx_session_refuse(
+        "--%s takes a whole number from %lld to %lld, not '%s'",
+        otx_flag_at(id)->name, (long long)low, (long long)high, text);
+    return false;
+}

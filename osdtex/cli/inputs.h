@@ -9,6 +9,12 @@ bool otx_inputs_cage(const otx_flag_values *values, osdtex_cage_options *out);
 bool otx_inputs_exemplar(
     const otx_flag_values *values, osdtex_exemplar_options *out);
 
+/* The whole number of a flag; *out stays where it is not given. False after
+ * saying what is wrong. */
+bool otx_inputs_number(
+    const otx_flag_values *values, otx_flag_id id, int64_t low, int64_t high,
+    int64_t *out);
+
 /* Whether a file begins like one of the pictures that are read. */
 bool otx_inputs_is_picture(const char *path);
 /* Whether it is no text and is not called .obj: perhaps a picture of another

@@ -31,21 +31,6 @@ typedef struct job
     osdtex_setting settings[OTX_FLAG_SETTINGS_MAX + 1];
 } job;
 
-static bool
-parse_number(
-    const otx_flag_values *values, otx_flag_id id, int64_t low, int64_t high,
-    int64_t *out)
-{
-    const char *text = values->text[id];
-
-    if (!text || otx_value_int(text, low, high, out))
-        return true;
-    otx_session_refuse(
-        "--%s takes a whole number from %lld to %lld, not '%s'",
-        otx_flag_at(id)->name, (long long)low, (long long)high, text);
-    return false;
-}
-
 /* X,Y,ANGLE or X,Y,ANGLE,LENGTH, as often as given. */
 static bool
 parse_edges(job *j)
@@ -126,11 +111,11 @@ parse_numbers(job *j)
     const otx_flag_values *values = &j->values;
     int64_t boundaries = 1, corners = 1, size = 0, gutter = 4, seed = 1;
 
-    if (!parse_number(values, OTX_FLAG_BOUNDARIES, 1, 3, &boundaries) ||
-        !parse_number(values, OTX_FLAG_CORNERS, 1, 4, &corners) ||
-        !parse_number(values, OTX_FLAG_TILE_SIZE, 16, 2048, &size) ||
-        !parse_number(values, OTX_FLAG_GUTTER, 1, 256, &gutter) ||
-        !parse_number(values, OTX_FLAG_SEED, 0, INT64_MAX, &seed))
+    if (!otx_inputs_number(values, OTX_FLAG_BOUNDARIES, 1, 3, &boundaries) ||
+        !otx_inputs_number(values, OTX_FLAG_CORNERS, 1, 4, &corners) ||
+        !otx_inputs_number(values, OTX_FLAG_TILE_SIZE, 16, 2048, &size) ||
+        !otx_inputs_number(values, OTX_FLAG_GUTTER, 1, 256, &gutter) ||
+        !otx_inputs_number(values, OTX_FLAG_SEED, 0, INT64_MAX, &seed))
         return false;
     j->options.boundaries = (int32_t)boundaries;
     j->options.corners = (int32_t)corners;
@@ -158,7 +143,7 @@ parse_mesh(job *j)
             "--scale takes a positive number of scene units, not '%s'", scale);
         return false;
     }
-    if (!parse_number(
+    if (!otx_inputs_number(
             values, tile_level ? OTX_FLAG_TILE_LEVEL : OTX_FLAG_LEVEL, 0,
             OSDTEX_LEVEL_MAX, &level))
         return false;

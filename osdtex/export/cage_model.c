@@ -1,6 +1,8 @@
 /* cage_model.c -- a cage to what the writers of file/ take. */
 #include "export/cage_model.h"
 
+#include "export/names.h"
+
 #include <string.h>
 
 otx_fvar
@@ -44,22 +46,22 @@ list_holes(otx_run *run, const otx_cage *cage, otx_obj *out)
 
 otx_status
 otx_cage_model_materials(
-    otx_run *run, const otx_cage *cage, const char *fallback, otx_obj *out)
+    otx_run *run, const otx_cage *cage, const int32_t *parents, int32_t faces,
+    const char *fallback, otx_obj *out)
 {
     const int32_t count = cage->face_material ? cage->material_count : 0;
     const char **names = OTX_NEW(run->scratch, const char *, count + 1);
-    int32_t *indices = OTX_NEW(run->scratch, int32_t, cage->face_count);
-    int32_t used = count, spare = -1;
+    int32_t *indices = OTX_NEW(run->scratch, int32_t, faces);
+    int32_t used = count;
+    int32_t spare = otx_names_find(cage->material_names, count, fallback);
 
     OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < count; ++i)
-    {
         names[i] = cage->material_names[i];
-        spare = strcmp(names[i], fallback) == 0 ? i : spare;
-    }
-    for (int32_t f = 0; f < cage->face_count; ++f)
+    for (int32_t f = 0; f < faces; ++f)
     {
-        indices[f] = count > 0 ? cage->face_material[f] : -1;
+        indices[f] =
+            count > 0 ? cage->face_material[parents ? parents[f] : f] : -1;
         if (indices[f] >= 0)
             continue;
         if (spare < 0)
@@ -135,7 +137,8 @@ otx_cage_model_obj(
     memcpy(out->origin, cage->origin, sizeof out->origin);
     set_names(cage, out);
     OTX_TRY(otx_cage_model_tags(run, cage, otx_cage_model_fvar(layout), out));
-    return otx_cage_model_materials(run, cage, fallback, out);
+    return otx_cage_model_materials(
+        run, cage, NULL, cage->face_count, fallback, out);
 }
 
 static const char *

@@ -25,9 +25,12 @@ otx_status otx_cage_model_obj(
     const char *library, const char *fallback, otx_obj *out);
 
 /* The cage's own materials, and which one each face has; faces without one get
- * `fallback`, since they would show no texture. Made in run->scratch. */
+ * `fallback`, since they would show no texture. Made in run->scratch.
+ *
+ *   parents  [faces] face of the cage that each is of; NULL: the cage's own */
 otx_status otx_cage_model_materials(
-    otx_run *run, const otx_cage *cage, const char *fallback, otx_obj *out);
+    otx_run *run, const otx_cage *cage, const int32_t *parents, int32_t faces,
+    const char *fallback, otx_obj *out);
 
 /* Creases, corners, holes and rules of a cage whose texture coordinates are
  * interpolated by `fvar`; what must be made is made in run->scratch. */

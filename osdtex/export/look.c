@@ -547,7 +547,8 @@ write_usda(const writer *w)
     OTX_TRY(otx_run_ok(w->run));
     otx_cage_model_usda(w->layout, w->names.stem, &usda);
     OTX_TRY(otx_cage_model_materials(
-        w->run, w->layout->surface->cage, w->names.stem, &listed));
+        w->run, w->layout->surface->cage, NULL,
+        w->layout->surface->cage->face_count, w->names.stem, &listed));
     if (listed.materials.count > 1)
         usda.materials = (otx_usda_subsets){
             listed.materials.count, listed.materials.text,

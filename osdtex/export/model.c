@@ -169,48 +169,6 @@ carry_names(
     return OSDTEX_OK;
 }
 
-static int32_t
-find_name(const char *const *names, int32_t count, const char *name)
-{
-    for (int32_t i = 0; i < count; ++i)
-        if (strcmp(names[i], name) == 0)
-            return i;
-    return -1;
-}
-
-/* Every face gets a material, since one without would show no texture: those
- * that the cage gave none get the one called `fallback`. */
-static otx_status
-carry_materials(
-    otx_run *run, const otx_cage *cage, const leaf_faces *faces,
-    const char *fallback, otx_obj *obj)
-{
-    const int32_t count = cage->face_material ? cage->material_count : 0;
-    const char **names = OTX_NEW(run->scratch, const char *, count + 1);
-    int32_t *indices = OTX_NEW(run->scratch, int32_t, faces->count);
-    int32_t used = count;
-    int32_t spare = find_name(cage->material_names, count, fallback);
-
-    OTX_TRY(otx_run_ok(run));
-    if (count > 0)
-        memcpy(names, cage->material_names, (size_t)count * sizeof *names);
-    for (int32_t f = 0; f < faces->count; ++f)
-    {
-        indices[f] = count > 0 ? cage->face_material[faces->parents[f]] : -1;
-        if (indices[f] >= 0)
-            continue;
-        if (spare < 0)
-        {
-            spare = used;
-            names[used++] = fallback;
-        }
-        indices[f] = spare;
-    }
-    obj->materials = (otx_obj_names){used, names};
-    obj->face_material = indices;
-    return OSDTEX_OK;
-}
-
 /* A name that is not among `names`: "BASE_K", K from 1. NULL when memory is
  * out. */
 static const char *
@@ -222,7 +180,7 @@ name_apart(
     int length =
         name ? snprintf(name, bytes, "%s_%d", base, (int)source + 1) : 0;
 
-    while (name && find_name(names->text, names->count, name) >= 0 &&
+    while (name && otx_names_find(names->text, names->count, name) >= 0 &&
            length + 2 < (int)bytes)
     {
         name[length++] = '_';
@@ -394,7 +352,8 @@ describe_obj(
     OTX_TRY(carry_names(
         run, &faces, cage->face_smooth, cage->smooth_count, cage->smooth_names,
         &out->smooths, &out->face_smooth));
-    OTX_TRY(carry_materials(run, cage, &faces, names->stem, out));
+    OTX_TRY(otx_cage_model_materials(
+        run, cage, faces.parents, faces.count, names->stem, out));
     return otx_source_count(mapping) > 1
                ? divide_materials(run, &faces, names->stem, out, materials)
                : list_materials(run, out, materials);

@@ -149,3 +149,12 @@ otx_names_number(
     names->texture_count = count;
     return OSDTEX_OK;
 }
+
+int32_t
+otx_names_find(const char *const *list, int32_t count, const char *name)
+{
+    for (int32_t i = 0; i < count; ++i)
+        if (strcmp(list[i], name) == 0)
+            return i;
+    return -1;
+}

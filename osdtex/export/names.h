@@ -41,4 +41,8 @@ otx_status otx_names_number(
     otx_run *run, otx_arena *arena, int32_t count, const char *extension,
     otx_names *names);
 
+/* Index of a name in a list; -1 none. */
+int32_t
+otx_names_find(const char *const *list, int32_t count, const char *name);
+
 #endif

@@ -1,22 +1,12 @@
 /* uv_pool.c -- open addressing over (vertex, u, v). */
 #include "export/uv_pool.h"
 
+#include "base/hash.h"
 #include "base/random.h"
 
 #include <string.h>
 
 static const char STAGE[] = "export";
-
-/* Power of two that leaves the table at most half full. */
-static size_t
-table_size(int32_t corner_count)
-{
-    size_t size = 16;
-
-    while (size < 2 * (size_t)corner_count)
-        size *= 2;
-    return size;
-}
 
 /* -0 and 0 are one number. */
 static uint64_t
@@ -42,7 +32,7 @@ otx_uv_pool_build(
     const float *uvs, otx_uv_pool *out)
 {
     const size_t corners = (size_t)corner_count;
-    const size_t size = table_size(corner_count);
+    const size_t size = otx_hash_table_size((size_t)corner_count);
     float *pool = OTX_NEW(arena, float, corners * 2);
     int32_t *indices = OTX_NEW(arena, int32_t, corners);
     const otx_arena_mark mark = otx_arena_here(run->scratch);

@@ -311,21 +311,29 @@ check(const checker *c)
     return OSDTEX_OK;
 }
 
-otx_status
-otx_mapping_check(
+static checker
+checker_of(
     otx_run *run, const otx_mapping *mapping, const otx_surface *surface,
-    const otx_exemplar *exemplars, int32_t exemplar_count, const char *method)
+    const otx_exemplar *exemplars, int32_t exemplar_count)
 {
-    const checker c = {
+    return (checker){
         .run = run,
         .mapping = mapping,
         .surface = surface,
         .leaf = otx_surface_leaf(surface),
         .exemplars = exemplars,
         .exemplar_count = exemplar_count,
-        .method = method,
     };
+}
 
+otx_status
+otx_mapping_check(
+    otx_run *run, const otx_mapping *mapping, const otx_surface *surface,
+    const otx_exemplar *exemplars, int32_t exemplar_count, const char *method)
+{
+    checker c = checker_of(run, mapping, surface, exemplars, exemplar_count);
+
+    c.method = method;
     return check(&c);
 }
 
@@ -334,15 +342,8 @@ otx_mapping_check_file(
     otx_run *run, const otx_mapping *mapping, const otx_surface *surface,
     const otx_exemplar *exemplars, int32_t exemplar_count, const char *path)
 {
-    const checker c = {
-        .run = run,
-        .mapping = mapping,
-        .surface = surface,
-        .leaf = otx_surface_leaf(surface),
-        .exemplars = exemplars,
-        .exemplar_count = exemplar_count,
-        .path = path,
-    };
+    checker c = checker_of(run, mapping, surface, exemplars, exemplar_count);
 
+    c.path = path;
     return check(&c);
 }

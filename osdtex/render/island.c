@@ -1,6 +1,7 @@
 /* island.c -- edges by hashing, islands by union and find. */
 #include "render/island.h"
 
+#include "base/hash.h"
 #include "base/random.h"
 #include "base/union_find.h"
 
@@ -42,17 +43,6 @@ edge_key(const otx_scene *scene, const int32_t *next, int32_t corner)
     return a < b ? a << 32 | b : b << 32 | a;
 }
 
-/* Power of two that leaves the table at most half full. */
-static size_t
-table_size(int32_t corner_count)
-{
-    size_t size = 16;
-
-    while (size < 2 * (size_t)corner_count)
-        size *= 2;
-    return size;
-}
-
 /* Walks the corners in order; the first of an edge waits in the table for the
  * second, which takes it and leaves the slot to whoever comes third. */
 static void
@@ -88,7 +78,7 @@ otx_island_pair(
     const int32_t **twin)
 {
     const size_t count = (size_t)scene->corner_count;
-    const size_t size = table_size(scene->corner_count);
+    const size_t size = otx_hash_table_size((size_t)scene->corner_count);
     int32_t *pairs = OTX_NEW(arena, int32_t, count);
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     int32_t *next = list_next(run->scratch, scene);

@@ -8,18 +8,6 @@
 
 #define STAGE "refine"
 
-static const float *
-split_points(otx_arena *arena, const otx_cage *cage, const otx_sever *mesh)
-{
-    float *points = OTX_NEW(arena, float, 3 * (size_t)mesh->vert_count);
-
-    for (int32_t v = 0; points && v < mesh->vert_count; ++v)
-        memcpy(
-            points + 3 * (size_t)v, cage->points + 3 * (size_t)mesh->source[v],
-            3 * sizeof *points);
-    return points;
-}
-
 /* The ends of a crease are those of its edge in the faces beside it: both
  * faces of an edge hold together, so either will do. */
 static otx_status
@@ -97,7 +85,7 @@ otx_pinch_split(otx_run *run, const otx_cage *cage, otx_cage *out)
             "the cage's pinch vertices were counted otherwise than parted");
     out->vert_count = mesh.vert_count;
     out->face_verts = mesh.face_verts;
-    out->points = split_points(run->scratch, cage, &mesh);
+    out->points = otx_sever_points(run->scratch, &mesh, cage->points);
     OTX_TRY(otx_run_ok(run));
     out->split_count = 0;
     OTX_TRY(split_creases(run, cage, &mesh, out));

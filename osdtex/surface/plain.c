@@ -24,22 +24,6 @@ edge_faces(otx_arena *arena, const otx_topology *t)
     return faces;
 }
 
-/* Points of vertices that were doubled, behind the cage's own. */
-static const float *
-points_of(otx_arena *arena, const otx_cage *cage, const otx_sever *mesh)
-{
-    float *points;
-
-    if (!mesh->source)
-        return cage->points;
-    points = OTX_NEW(arena, float, 3 * (size_t)mesh->vert_count);
-    for (int32_t v = 0; points && v < mesh->vert_count; ++v)
-        memcpy(
-            points + 3 * (size_t)v, cage->points + 3 * (size_t)mesh->source[v],
-            3 * sizeof *points);
-    return points;
-}
-
 static otx_status
 make_level(
     otx_run *run, const otx_cage *cage, const otx_sever *mesh, otx_level *out)
@@ -84,7 +68,7 @@ otx_plain_cage(
                       run->arena, cage->vert_count, cage->face_count,
                       cage->face_first, cage->face_verts, &mesh))
         return otx_fail_memory(run, STAGE);
-    points = points_of(run->arena, cage, &mesh);
+    points = otx_sever_points(run->arena, &mesh, cage->points);
     none = OTX_ZNEW(run->arena, float, 6 * (size_t)mesh.vert_count);
     OTX_TRY(otx_run_ok(run));
     OTX_TRY(make_level(run, cage, &mesh, level));

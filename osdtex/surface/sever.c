@@ -200,3 +200,18 @@ otx_sever_build(
     *out = (otx_sever){s.count, s.verts, s.source};
     return true;
 }
+
+const float *
+otx_sever_points(otx_arena *arena, const otx_sever *mesh, const float *points)
+{
+    float *out;
+
+    if (!mesh->source)
+        return points;
+    out = OTX_NEW(arena, float, 3 * (size_t)mesh->vert_count);
+    for (int32_t v = 0; out && v < mesh->vert_count; ++v)
+        memcpy(
+            out + 3 * (size_t)v, points + 3 * (size_t)mesh->source[v],
+            3 * sizeof *out);
+    return out;
+}

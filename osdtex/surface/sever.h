@@ -24,4 +24,9 @@ bool otx_sever_build(
     otx_arena *arena, int32_t vert_count, int32_t face_count,
     const int32_t *face_first, const int32_t *face_verts, otx_sever *out);
 
+/* Points of the vertices after the cut, `points` those before it: these where
+ * nothing has changed, else in `arena`. NULL when memory is out. */
+const float *
+otx_sever_points(otx_arena *arena, const otx_sever *mesh, const float *points);
+
 #endif

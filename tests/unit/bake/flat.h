@@ -76,6 +76,33 @@ flat_ramp(otx_run *run, int32_t side)
     return exemplar;
 }
 
+/* Maps of a picture of `side` texels: one normal throughout, and heights that
+ * rise along u by `range` scene units, 0 in the middle. */
+static inline void
+flat_add_ramp(
+    otx_run *run, int32_t side, const float normal[3], double range,
+    otx_exemplar *exemplar)
+{
+    otx_companions *set = &exemplar->companions;
+
+    assert_int_equal(
+        otx_image_create(run, run->arena, side, side, 4, &set->image),
+        OSDTEX_OK);
+    for (int32_t y = 0; y < side; ++y)
+        for (int32_t x = 0; x < side; ++x)
+        {
+            float *p = otx_image_at(&set->image, x, y);
+
+            memcpy(p, normal, 3 * sizeof *p);
+            p[3] = ((float)x + 0.5f) / (float)side;
+        }
+    set->maps[OTX_COMPANION_NORMAL].is_there = true;
+    set->maps[OTX_COMPANION_HEIGHT] =
+        (otx_companion){.is_there = true, .first = 3};
+    set->height_middle = 0.5;
+    set->height_range = range;
+}
+
 /* All levels of one baked tile. */
 typedef struct flat_levels
 {

@@ -33,30 +33,6 @@ turned(otx_run *run, const otx_surface *surface, double angle, double size)
     return mapping;
 }
 
-/* A ramp: one normal throughout, and the height that it is of. */
-static void
-add_ramp(otx_run *run, const float normal[3], otx_exemplar *exemplar)
-{
-    otx_companions *set = &exemplar->companions;
-
-    assert_int_equal(
-        otx_image_create(run, run->arena, TEXELS, TEXELS, 4, &set->image),
-        OSDTEX_OK);
-    for (int32_t y = 0; y < TEXELS; ++y)
-        for (int32_t x = 0; x < TEXELS; ++x)
-        {
-            float *p = otx_image_at(&set->image, x, y);
-
-            memcpy(p, normal, 3 * sizeof *p);
-            p[3] = ((float)x + 0.5f) / TEXELS;
-        }
-    set->maps[OTX_COMPANION_NORMAL].is_there = true;
-    set->maps[OTX_COMPANION_HEIGHT] =
-        (otx_companion){.is_there = true, .first = 3};
-    set->height_middle = 0.5;
-    set->height_range = 2.0;
-}
-
 /* Levels of the maps of a bake, as images. */
 typedef struct baked
 {
@@ -143,7 +119,7 @@ test_normals_are_turned(void **state)
             0.6 * cos(angle), (y_down ? -0.6 : 0.6) * sin(angle), 0.8};
         baked b;
 
-        add_ramp(run, normal, exemplar);
+        flat_add_ramp(run, TEXELS, normal, 2.0, exemplar);
         b = bake(run, mapping, exemplar, &layout, y_down);
         for (int32_t l = 0; l < b.normals.count; ++l)
         {
@@ -176,7 +152,7 @@ test_heights_are_scene_units(void **state)
     baked b;
 
     (void)state;
-    add_ramp(run, up, exemplar);
+    flat_add_ramp(run, TEXELS, up, 2.0, exemplar);
     b = bake(run, mapping, exemplar, &layout, false);
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {
@@ -218,7 +194,7 @@ test_colors_stay(void **state)
 
     (void)state;
     a = flat_bake(run, mapping, exemplar, &layout, &without, 0);
-    add_ramp(run, normal, exemplar);
+    flat_add_ramp(run, TEXELS, normal, 2.0, exemplar);
     b = flat_bake(run, mapping, exemplar, &layout, &with, 0);
     for (int32_t l = 0; l < a.count; ++l)
         assert_memory_equal(

@@ -1,5 +1,5 @@
 /* test_atomic_file.c -- all files of a set appear, or none. */
-#include "support.h"
+#include "folder.h"
 
 #include "file/atomic_file.h"
 
@@ -57,28 +57,6 @@ count_files(const fixture *f)
     return count;
 }
 
-static void
-put(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "w");
-
-    fputs(text, file);
-    fclose(file);
-}
-
-static bool
-holds(const char *path, const char *text)
-{
-    char found[32] = "";
-    FILE *file = fopen(path, "r");
-
-    if (!file)
-        return false;
-    found[fread(found, 1, sizeof found - 1, file)] = '\0';
-    fclose(file);
-    return strcmp(found, text) == 0;
-}
-
 /* A set of two files, written to their temporaries. */
 static otx_atomic_file_set *
 make_set(fixture *f)
@@ -90,10 +68,10 @@ make_set(fixture *f)
         otx_atomic_file_begin(f->run, f->run->scratch, &set), OSDTEX_OK);
     assert_int_equal(
         otx_atomic_file_add(f->run, set, f->a, &temporary), OSDTEX_OK);
-    put(temporary, "new a");
+    test_put(temporary, "new a");
     assert_int_equal(
         otx_atomic_file_add(f->run, set, f->b, &temporary), OSDTEX_OK);
-    put(temporary, "new b");
+    test_put(temporary, "new b");
     return set;
 }
 
@@ -104,13 +82,13 @@ commit_replaces_all(void **state)
     const otx_arena_mark mark = otx_arena_here(f->run->scratch);
     otx_atomic_file_set *set;
 
-    put(f->a, "old a");
+    test_put(f->a, "old a");
     set = make_set(f);
-    assert_true(holds(f->a, "old a"));
+    assert_true(test_holds(f->a, "old a"));
     assert_int_equal(otx_atomic_file_commit(f->run, set, true), OSDTEX_OK);
     otx_arena_release(f->run->scratch, mark);
-    assert_true(holds(f->a, "new a"));
-    assert_true(holds(f->b, "new b"));
+    assert_true(test_holds(f->a, "new a"));
+    assert_true(test_holds(f->b, "new b"));
     assert_int_equal(count_files(f), 2);
 }
 
@@ -120,11 +98,11 @@ release_without_commit_leaves_what_was(void **state)
     fixture *f = *state;
     const otx_arena_mark mark = otx_arena_here(f->run->scratch);
 
-    put(f->a, "old a");
+    test_put(f->a, "old a");
     make_set(f);
     assert_int_equal(count_files(f), 3);
     otx_arena_release(f->run->scratch, mark);
-    assert_true(holds(f->a, "old a"));
+    assert_true(test_holds(f->a, "old a"));
     assert_int_equal(count_files(f), 1);
 }
 
@@ -160,12 +138,12 @@ a_failing_rename_brings_back_old_files(void **state)
     fixture *f = *state;
     otx_atomic_file_set *set;
 
-    put(f->a, "old a");
+    test_put(f->a, "old a");
     set = make_set(f);
     assert_int_equal(mkdir(f->b, 0777), 0);
     assert_int_equal(
         otx_atomic_file_commit(f->run, set, true), OSDTEX_ERROR_IO);
-    assert_true(holds(f->a, "old a"));
+    assert_true(test_holds(f->a, "old a"));
     assert_int_equal(count_files(f), 2);
 }
 
@@ -186,14 +164,14 @@ a_shared_set_appears_at_its_end(void **state)
     assert_ptr_equal(set, shared);
     assert_int_equal(
         otx_atomic_file_add(run, set, f->a, &temporary), OSDTEX_OK);
-    put(temporary, "new a");
+    test_put(temporary, "new a");
     assert_int_equal(otx_atomic_file_commit(run, set, true), OSDTEX_OK);
     assert_int_not_equal(access(f->a, F_OK), 0);
     assert_int_equal(
         otx_atomic_file_add(run, set, f->b, &temporary), OSDTEX_OK);
     assert_int_equal(otx_atomic_file_publish(run, shared), OSDTEX_OK);
     run->outputs = NULL;
-    assert_true(holds(f->a, "new a"));
+    assert_true(test_holds(f->a, "new a"));
     assert_int_equal(count_files(f), 1);
 }
 
@@ -206,7 +184,7 @@ links_and_protected_files_are_refused(void **state)
 
     assert_int_equal(
         otx_atomic_file_begin(f->run, f->run->scratch, &set), OSDTEX_OK);
-    put(f->b, "kept");
+    test_put(f->b, "kept");
     assert_int_equal(symlink(f->b, f->a), 0);
     assert_int_equal(
         otx_atomic_file_add(f->run, set, f->a, &temporary), OSDTEX_ERROR_IO);
@@ -233,7 +211,7 @@ leftovers_of_the_dead_are_swept(void **state)
     wait(&ended);
     assert_int_equal(count_files(f), 2);
     snprintf(stranger, sizeof stranger, "%s.tmp-deadbeef-999999999-0", f->a);
-    put(stranger, "of another machine");
+    test_put(stranger, "of another machine");
     make_set(f);
     assert_int_equal(count_files(f), 3);
     assert_int_equal(unlink(stranger), 0);

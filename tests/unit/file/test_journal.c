@@ -1,6 +1,6 @@
 /* test_journal.c -- a process that is killed while files take their names
  * leaves a set that the next one completes. */
-#include "support.h"
+#include "folder.h"
 
 #include "file/atomic_file.h"
 #include "file/journal.h"
@@ -70,28 +70,6 @@ end(void **state)
     return 0;
 }
 
-static void
-put(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "w");
-
-    fputs(text, file);
-    fclose(file);
-}
-
-static bool
-holds(const char *path, const char *text)
-{
-    char found[32] = "";
-    FILE *file = fopen(path, "r");
-
-    if (!file)
-        return false;
-    found[fread(found, 1, sizeof found - 1, file)] = '\0';
-    fclose(file);
-    return strcmp(found, text) == 0;
-}
-
 /* Whether there are temporaries; the last one's name, where it is asked for. */
 static int
 count_temporaries(const fixture *f, char journal[PATH_SIZE])
@@ -129,7 +107,7 @@ be_killed(fixture *f, int at)
         for (int i = 0; i < FILES; ++i)
         {
             otx_atomic_file_add(f->run, set, f->paths[i], &temporary);
-            put(temporary, "new");
+            test_put(temporary, "new");
         }
         otx_atomic_file_commit(f->run, set, false);
         _exit(1);
@@ -144,7 +122,7 @@ count_new(const fixture *f)
     int count = 0;
 
     for (int i = 0; i < FILES; ++i)
-        count += holds(f->paths[i], "new");
+        count += test_holds(f->paths[i], "new");
     return count;
 }
 
@@ -155,8 +133,8 @@ half_a_set_is_completed(void **state)
 
     for (int at = 0; at < FILES; ++at)
     {
-        put(f->paths[0], "old");
-        put(f->paths[1], "old");
+        test_put(f->paths[0], "old");
+        test_put(f->paths[1], "old");
         unlink(f->paths[2]);
         be_killed(f, at);
         assert_int_equal(count_new(f), at);
@@ -173,7 +151,7 @@ the_last_one_added_comes_last(void **state)
     fixture *f = *state;
 
     be_killed(f, FILES - 1);
-    assert_true(holds(f->paths[0], "new"));
+    assert_true(test_holds(f->paths[0], "new"));
     assert_int_not_equal(access(f->paths[FILES - 1], F_OK), 0);
 }
 
@@ -201,13 +179,13 @@ a_name_that_was_taken_stops_it(void **state)
 {
     fixture *f = *state;
 
-    put(f->paths[1], "old");
-    put(f->paths[2], "old");
+    test_put(f->paths[1], "old");
+    test_put(f->paths[2], "old");
     be_killed(f, 1);
-    put(f->paths[2], "theirs");
+    test_put(f->paths[2], "theirs");
     otx_temporary_sweep(f->paths[0]);
-    assert_true(holds(f->paths[1], "old"));
-    assert_true(holds(f->paths[2], "theirs"));
+    assert_true(test_holds(f->paths[1], "old"));
+    assert_true(test_holds(f->paths[2], "theirs"));
     assert_int_equal(count_temporaries(f, NULL), 0);
 }
 
@@ -249,9 +227,9 @@ a_journal_speaks_of_temporaries_beside_it(void **state)
     int folder = open(f->folder, O_RDONLY | O_DIRECTORY);
 
     snprintf(path, sizeof path, "%s/secret", f->folder);
-    put(path, "secret");
+    test_put(path, "secret");
     snprintf(path, sizeof path, "%s/x.tmp-1", f->folder);
-    put(path, "x");
+    test_put(path, "x");
     for (size_t i = 0; i < sizeof lines / sizeof *lines; ++i)
     {
         snprintf(path, sizeof path, "%s/journal", f->folder);
@@ -275,7 +253,7 @@ a_process_that_leaves_removes_its_own(void **state)
     otx_atomic_file_set *set;
     const char *temporary;
 
-    put(f->paths[0], "old");
+    test_put(f->paths[0], "old");
     assert_int_equal(
         otx_atomic_file_begin(f->run, f->run->scratch, &set), OSDTEX_OK);
     for (int i = 0; i < FILES; ++i)
@@ -285,7 +263,7 @@ a_process_that_leaves_removes_its_own(void **state)
     assert_int_equal(count_temporaries(f, NULL), FILES);
     otx_temporary_sweep_own(f->paths[0]);
     assert_int_equal(count_temporaries(f, NULL), 0);
-    assert_true(holds(f->paths[0], "old"));
+    assert_true(test_holds(f->paths[0], "old"));
 }
 
 int

@@ -116,6 +116,35 @@ check(const otx_mapping *m, const otx_exemplar *e)
     }
 }
 
+/* The same coordinates, to the bit. */
+static inline void
+assert_same_uvs(const otx_mapping *a, const otx_mapping *b)
+{
+    assert_memory_equal(
+        a->uvs, b->uvs,
+        2 * sizeof(float) * (size_t)otx_surface_leaf(a->surface)->corner_count);
+}
+
+/* A cube refined three times, for exemplars that are refused on it; what one is
+ * refused for names `word`. */
+typedef otx_status (*map_trial)(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    otx_mapping *out);
+
+static inline void
+assert_unsupported(map_trial trial, const char *word)
+{
+    otx_run *run = test_run_create();
+    const otx_exemplar e = make_exemplar(run, true, false);
+    const otx_cage_input in = mesh_cube(run);
+    const field_surface *s = field_from_input(run, &in, 3);
+    otx_mapping m;
+
+    assert_int_equal(trial(run, &s->surface, &e, &m), OSDTEX_ERROR_SUPPORT);
+    assert_non_null(strstr(test_last_message(run), word));
+    test_run_destroy(run);
+}
+
 /* -- several lookups ----------------------------------------------------- */
 
 /* With the exemplar's lattice as it is: it looks the same turned by half. */

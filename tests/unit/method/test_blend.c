@@ -139,29 +139,25 @@ whole_lattices_are_not_blended(void **state)
     assert_true(lattice(&figures, "singular_rings") == 0.0);
     assert_true(lattice(&figures, "blended_faces") == 0.0);
     assert_null(m[1].lookups);
-    assert_memory_equal(
-        m[0].uvs, m[1].uvs,
-        2 * sizeof(float) *
-            (size_t)otx_surface_leaf(&s->surface)->corner_count);
+    assert_same_uvs(&m[0], &m[1]);
     test_run_destroy(run);
+}
+
+static otx_status
+blend(
+    otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    otx_mapping *out)
+{
+    otx_figures figures;
+
+    return map_lattice(run, surface, exemplar, "blend", 1.5, out, &figures);
 }
 
 static void
 what_does_not_tile_is_not_blended(void **state)
 {
-    otx_run *run = test_run_create();
-    const otx_exemplar e = make_exemplar(run, true, false);
-    const otx_cage_input in = mesh_cube(run);
-    const field_surface *s = field_from_input(run, &in, 3);
-    otx_figures figures;
-    otx_mapping m;
-
     (void)state;
-    assert_int_equal(
-        map_lattice(run, &s->surface, &e, "blend", 1.5, &m, &figures),
-        OSDTEX_ERROR_SUPPORT);
-    assert_non_null(strstr(test_last_message(run), "tiles"));
-    test_run_destroy(run);
+    assert_unsupported(blend, "tiles");
 }
 
 int

@@ -24,30 +24,25 @@ courses_do_not_depend_on_threads(void **state)
             OSDTEX_OK);
         check(&m[i], e);
     }
-    assert_memory_equal(
-        m[0].uvs, m[1].uvs,
-        2 * sizeof(float) *
-            (size_t)otx_surface_leaf(m[0].surface)->corner_count);
+    assert_same_uvs(&m[0], &m[1]);
     for (int i = 0; i < 2; ++i)
         test_run_destroy(runs[i]);
+}
+
+static otx_status
+lay(otx_run *run, const otx_surface *surface, const otx_exemplar *exemplar,
+    otx_mapping *out)
+{
+    otx_figures figures;
+
+    return map_courses(run, surface, exemplar, 1.5, out, &figures);
 }
 
 static void
 courses_that_are_not_there_are_refused(void **state)
 {
-    otx_run *run = test_run_create();
-    const otx_exemplar e = make_exemplar(run, true, false);
-    const otx_cage_input in = mesh_cube(run);
-    const field_surface *s = field_from_input(run, &in, 3);
-    otx_figures figures;
-    otx_mapping m;
-
     (void)state;
-    assert_int_equal(
-        map_courses(run, &s->surface, &e, 1.5, &m, &figures),
-        OSDTEX_ERROR_SUPPORT);
-    assert_non_null(strstr(test_last_message(run), "courses"));
-    test_run_destroy(run);
+    assert_unsupported(lay, "courses");
 }
 
 int

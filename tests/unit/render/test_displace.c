@@ -17,26 +17,10 @@ static otx_exemplar *
 ramp(otx_run *run, const float normal[3], double range)
 {
     otx_exemplar *exemplar = flat_exemplar(run, TEXELS, 3);
-    otx_companions *set = &exemplar->companions;
 
     for (int32_t i = 0; i < 3 * TEXELS * TEXELS; ++i)
         exemplar->linear.pixels[i] = 0.5f;
-    assert_int_equal(
-        otx_image_create(run, run->arena, TEXELS, TEXELS, 4, &set->image),
-        OSDTEX_OK);
-    for (int32_t y = 0; y < TEXELS; ++y)
-        for (int32_t x = 0; x < TEXELS; ++x)
-        {
-            float *p = otx_image_at(&set->image, x, y);
-
-            memcpy(p, normal, 3 * sizeof *p);
-            p[3] = ((float)x + 0.5f) / TEXELS;
-        }
-    set->maps[OTX_COMPANION_NORMAL].is_there = true;
-    set->maps[OTX_COMPANION_HEIGHT] =
-        (otx_companion){.is_there = true, .first = 3};
-    set->height_middle = 0.5;
-    set->height_range = range;
+    flat_add_ramp(run, TEXELS, normal, range, exemplar);
     return exemplar;
 }
 
