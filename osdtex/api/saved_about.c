@@ -1,6 +1,7 @@
 /* saved_about.c -- what a saved mapping says besides its arrays. */
 #include "api/saved_about.h"
 
+#include "api/saved_constraints.h"
 #include "base/hash.h"
 
 #include <inttypes.h>
@@ -126,7 +127,8 @@ print_all(const osdtex_mapping *mapping, const char *topology)
             print_exemplar(mapping->sources[k], &mapping->exemplars[k]));
     snprintf(seed, sizeof seed, "%" PRIu64, mapping->seed);
     return json_pack(
-        "{s:i, s:s, s:o, s:o, s:s, s:o, s:f, s:s, s:i, s:i, s:i, s:f, s:i}",
+        "{s:i, s:s, s:o, s:o, s:s, s:o, s:f, s:s, s:i, s:i, s:i, s:f, s:i, "
+        "s:o}",
         "format", OTX_SAVED_FORMAT, "program", osdtex_version(), "cage",
         print_cage(
             mapping->surface->cage, topology, mapping->surface->info.level),
@@ -136,7 +138,8 @@ print_all(const osdtex_mapping *mapping, const char *topology)
         m->lookups ? (int)m->lookups->layering : 0, "guide_symmetry",
         m->guide ? (int)m->guide->symmetry : 0, "guide_angle",
         m->guide ? m->guide->angle : 0.0, "defect_count",
-        m->lattice ? (int)m->lattice->defect_count : 0);
+        m->lattice ? (int)m->lattice->defect_count : 0, "constraints",
+        otx_saved_constraints_print(mapping->request.constraints));
 }
 
 otx_status

@@ -285,6 +285,23 @@ class Saved(ProgramTest):
         self.assertIn("saved mapping, format 1", result.stdout)
         self.assertIn("patches by hierarchical", result.stdout)
 
+    def test_constraints_are_in_it(self):
+        """As a file of them, with which the mapping comes out again."""
+        asked = self.folder / "k.json"
+        asked.write_text(json.dumps({
+            "symmetry": 2, "follow": [0, 1, 0], "constraints": [
+                {"face": 3, "direction": [1, 0, 0], "scale": 1.5},
+                {"point": [0, 1, 0], "radius": 0.2, "scale": 2}]}))
+        self.save("--constraints", asked)
+        first, whole = self.saved.read_bytes(), self.picture(self.saved)
+        size = int.from_bytes(first[:8], "little")
+        about = json.loads(json.loads(
+            first[8:8 + size])["__metadata__"]["osdtex"])
+        self.assertEqual(about["constraints"]["constraints"][0]["face"], 3)
+        asked.write_text(json.dumps(about["constraints"]))
+        self.save("--constraints", asked, "--replace")
+        self.assertEqual(self.picture(self.saved), whole)
+
     def test_python_reads_it(self):
         """By the example in the documentation."""
         self.need(modules=("numpy",))
