@@ -37,9 +37,39 @@ put(otx_material_flags *out, osdtex_companion map)
     out->count += i == out->count;
 }
 
+/* One map of a file that --map names. A file of its own wins over a packed one,
+ * whichever comes first.
+ *
+ *   named  bit k: a file of its own is named for maps of kind k */
+static bool
+take_word(
+    size_t word, const char *path, uint32_t *named, otx_material_flags *out)
+{
+    const uint32_t bit = 1u << WORDS[word].kind;
+    const bool is_packed = strcmp(WORDS[word].word, "arm") == 0;
+
+    if (*named & bit)
+    {
+        if (!is_packed)
+            otx_session_refuse(
+                "--map names two files for the %s map; name one of them",
+                osdtex_map_kind_name(WORDS[word].kind));
+        return is_packed;
+    }
+    *named |= is_packed ? 0u : bit;
+    put(out, (osdtex_companion){
+                 .path = path,
+                 .kind = WORDS[word].kind,
+                 .channel = WORDS[word].channel,
+                 .y_down = WORDS[word].y_down,
+                 .inverted = WORDS[word].inverted});
+    return true;
+}
+
 /* KIND=FILE, cut off from the rest. */
 static bool
-take_map(const char *item, const char *all, otx_material_flags *out)
+take_map(
+    const char *item, const char *all, uint32_t *named, otx_material_flags *out)
 {
     const char *equals = strchr(item, '=');
     const size_t length = equals ? (size_t)(equals - item) : 0;
@@ -50,12 +80,8 @@ take_map(const char *item, const char *all, otx_material_flags *out)
         if (strlen(WORDS[i].word) != length ||
             strncmp(WORDS[i].word, item, length) != 0)
             continue;
-        put(out, (osdtex_companion){
-                     .path = equals + 1,
-                     .kind = WORDS[i].kind,
-                     .channel = WORDS[i].channel,
-                     .y_down = WORDS[i].y_down,
-                     .inverted = WORDS[i].inverted});
+        if (!take_word(i, equals + 1, named, out))
+            return false;
         known = true;
     }
     if (known && equals[1])
@@ -73,6 +99,7 @@ take_maps(const otx_flag_values *values, otx_material_flags *out)
 {
     const char *all = values->text[OTX_FLAG_MAP];
     char *item = out->text;
+    uint32_t named = 0;
 
     if (!all)
         return true;
@@ -87,7 +114,7 @@ take_maps(const otx_flag_values *values, otx_material_flags *out)
         next = strchr(item, ',');
         if (next)
             *next++ = '\0';
-        if (!take_map(item, all, out))
+        if (!take_map(item, all, &named, out))
             return false;
     }
     return true;

@@ -164,6 +164,8 @@ class Material(ProgramTest):
         self.refuse(2, "is it a height", self.color, "--map",
                     f"normal={self.set}/Peb_1K_disp.png")
         self.refuse(1, "--map takes KIND=FILE", self.color, "--map", "x=y")
+        self.refuse(1, "--map names two files for the normal map", self.color,
+                    "--map", "normal=a.png,normal-dx=b.png")
         self.refuse(1, "--height-range", self.color, "--height-range", "-1")
         self.color.unlink()
         self.refuse(2, "as the colour of a material is", "--material",
