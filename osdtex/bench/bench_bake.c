@@ -49,7 +49,7 @@ typedef struct baking
     scene *s;
     int32_t side;
     bool with_maps;
-    double peak; /* resident bytes beyond what stood before */
+    double peak; /* resident bytes of the process */
 } baking;
 
 /* Maps made of the picture: any numbers will do. */
@@ -181,9 +181,8 @@ bake(void *context)
     otx_status status;
 
     bench_workspace_reset_peak();
-    b->peak = -bench_workspace_peak();
     status = bake_within(&b->s->run, b);
-    b->peak += bench_workspace_peak();
+    b->peak = bench_workspace_peak();
     otx_arena_release(b->s->run.arena, mark);
     return status;
 }
