@@ -44,7 +44,14 @@ otx_baked_texture_lay_out(
 
     while (!side && options.side < needed && options.side < SIDE_MOST)
         options.side *= 2;
-    return otx_layout_build(run, mapping, &options, out);
+    OTX_TRY(otx_layout_build(run, mapping, &options, out));
+    if (out->tile_count > 1)
+        return otx_fail(
+            run, OSDTEX_ERROR_LIMIT, STAGE, OTX_NOWHERE,
+            "the atlas of the mesh takes %d pictures of %d texels, and there "
+            "is one texture; raise {resolution} or lower {level}",
+            (int)out->tile_count, (int)options.side);
+    return OSDTEX_OK;
 }
 
 /* Where blocks go. */

@@ -156,7 +156,7 @@ mix_field(
     const float length = sqrtf(sum[0] * sum[0] + sum[1] * sum[1]);
 
     for (int k = 0; k < 2; ++k)
-        out[k] = length > 0.0f ? sum[k] / length : k == 0 ? 1.0f : 0.0f;
+        out[k] = length > 0.0f ? sum[k] / length : 0.0f;
 }
 
 /* The mean over children that are there. */

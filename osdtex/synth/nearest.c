@@ -40,7 +40,7 @@ is_held(const seeker *s, ptrdiff_t at, otx_synth_match m)
     const float *f = s->canvas->field;
     const int32_t symmetry = s->pass->symmetry;
 
-    if (!f)
+    if (!f || (f[2 * at] == 0.0f && f[2 * at + 1] == 0.0f))
         return true;
 
     const float along = m.c * f[2 * at] + m.s * f[2 * at + 1];
@@ -151,12 +151,13 @@ otx_nearest_random(
     const otx_pattern *pattern, const float *field, double tolerance,
     uint64_t bits)
 {
+    const bool held = field && (field[0] != 0.0f || field[1] != 0.0f);
     const otx_synth_match m = {
         (float)(0.5 * (signed_unit(bits) + 1.0) * pattern->width),
         (float)(0.5 * (signed_unit(bits >> 21) + 1.0) * pattern->height),
-        field ? field[0] : 1.0f, field ? field[1] : 0.0f};
+        held ? field[0] : 1.0f, held ? field[1] : 0.0f};
 
-    return turned(m, (field ? tolerance : OTX_PI) * signed_unit(bits >> 42));
+    return turned(m, (held ? tolerance : OTX_PI) * signed_unit(bits >> 42));
 }
 
 static void

@@ -60,7 +60,7 @@ typedef struct otx_synth_chart
      * texels. NULL: the identity. Stretch outside of [1/2, 2] is cut off. */
     const float *metric;
     /* [texels * 2] (c, s) that matches are held to within options->tolerance;
-     * NULL: angles are free. */
+     * (0, 0): there angles are free, NULL: everywhere. */
     const float *field;
     const otx_synth_place *places; /* [texels] of COLLAR; NULL: there is none */
     /* [texels * 4] what the second four channels have to be, in the units of

@@ -67,8 +67,8 @@ look_up(const otx_target_set *h, const otx_plot_facet *f, lookup *out)
     const double *m = f->metric;
     const double det = m[0] * m[2] - m[1] * m[1];
 
-    *out = (lookup){{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}, {1.0, 0.0}};
-    if (h->guide)
+    *out = (lookup){{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}, {0.0, 0.0}};
+    if (h->guide && !(h->loose && h->loose[f->facet.face]))
         out->field = follow(h, f);
     for (int k = 0; k < 3; ++k)
     {

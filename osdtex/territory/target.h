@@ -30,6 +30,7 @@ typedef struct otx_target_set
     otx_target *targets;    /* likewise */
     int32_t exemplar;       /* at hand */
     const otx_guide *guide; /* that the exemplar at hand follows; NULL */
+    const uint8_t *loose;   /* [leaf face_count] 1: it need not; NULL none */
     bool whole; /* all is near, and UVs may be reversed or without area */
 } otx_target_set;
 

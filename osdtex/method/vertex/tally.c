@@ -14,7 +14,7 @@ enum
 /* Sums over the texels that were made. */
 typedef struct tally
 {
-    int64_t texels, continued, pairs;
+    int64_t texels, continued, pairs, held;
     double departure; /* from the field, radians */
     int64_t used[CELLS * CELLS];
     double *lightness; /* of every `stride`-th texel */
@@ -82,9 +82,12 @@ add_chart(
             look(e, c->matches[i], t);
             if (x + 1 < c->width && c->kinds[i + 1] == OTX_SYNTH_FREE)
                 compare(c, i, t);
-            if (c->field)
-                t->departure +=
-                    departure_of(c->field + 2 * i, c->matches[i], symmetry);
+            if (!c->field ||
+                (c->field[2 * i] == 0.0f && c->field[2 * i + 1] == 0.0f))
+                continue;
+            ++t->held;
+            t->departure +=
+                departure_of(c->field + 2 * i, c->matches[i], symmetry);
         }
 }
 
@@ -187,10 +190,10 @@ otx_vertex_report(const otx_vertex *v)
             f, "made.coherence", "", (double)t->continued / (double)t->pairs);
     if (t->texels == 0)
         return OSDTEX_OK;
-    if (v->guide.directions)
+    if (t->held > 0)
         otx_figures_real(
             f, "made.departure", "degrees",
-            180.0 / OTX_PI * t->departure / (double)t->texels);
+            180.0 / OTX_PI * t->departure / (double)t->held);
     otx_figures_real(f, "made.used", "", use_of(t));
     return report_lightness(v, t);
 }

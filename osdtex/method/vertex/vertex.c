@@ -169,13 +169,23 @@ lay_out(otx_vertex *v)
 {
     otx_target_set *set = &v->set;
     const int32_t radius = otx_synth_making().coarse_radius;
+    const double texels =
+        otx_unit_texels(v->job->exemplars, v->job->request->scale);
+    uint8_t *loose = NULL;
 
+    if (v->guide.directions && v->settings.mode != OTX_VERTEX_MODE_PAPER)
+        OTX_TRY(otx_vertex_find_poles(
+            v->run, v->mapping.surface, &v->guide,
+            0.5 * (1 + 2 * radius) * ldexp(1.0, v->settings.levels - 1) /
+                texels,
+            &loose));
     *set = (otx_target_set){
         .run = v->run,
         .mapping = &v->mapping,
         .exemplars = v->job->exemplars,
-        .texels = otx_unit_texels(v->job->exemplars, v->job->request->scale),
+        .texels = texels,
         .guide = v->guide.directions ? &v->guide : NULL,
+        .loose = loose,
         .whole = true};
     OTX_TRY(otx_target_set_lay_out(
         set, CORE, (double)(radius << (v->settings.levels - 1)) + MARGIN));

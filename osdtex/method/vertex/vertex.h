@@ -48,6 +48,15 @@ otx_status otx_vertex_comb(
     otx_run *run, const otx_surface *surface, const otx_guide *guide,
     otx_guide *out);
 
+/* Faces within `reach` scene units of where the field turns fast.
+ *
+ *   out  [leaf face_count] 1: they are, in run->arena
+ *
+ * MEMORY. */
+otx_status otx_vertex_find_poles(
+    otx_run *run, const otx_surface *surface, const otx_guide *guide,
+    double reach, uint8_t **out);
+
 /* UVs of every face as its middle goes on to its corners, and the chart that
  * it is in as its patch: in v->mapping. MEMORY. */
 otx_status otx_vertex_lay_uvs(otx_vertex *v);
