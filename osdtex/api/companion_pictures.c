@@ -177,12 +177,11 @@ say(otx_run *run, const otx_companion_input *inputs, int32_t count)
 otx_status
 otx_companion_pictures_take(
     otx_call *call, const osdtex_exemplar_options *options,
-    otx_exemplar *exemplar)
+    const otx_exemplar *exemplar, otx_companions *out)
 {
     otx_run *run = &call->run;
     const otx_image *color = &exemplar->linear;
     otx_companion_input inputs[OTX_COMPANION_COUNT];
-    otx_companions *out = &exemplar->companions;
     pictures *p;
 
     OTX_TRY(check(run, options));
@@ -207,14 +206,12 @@ otx_companion_pictures_take(
     return OSDTEX_OK;
 }
 
-otx_status
-otx_companion_pictures_match(
-    otx_run *run, const osdtex_exemplar_options *options,
-    otx_exemplar *exemplar)
+otx_match_weights
+otx_companion_pictures_weights(const osdtex_exemplar_options *options)
 {
     otx_match_weights weights = {.color = options->match_color};
 
     for (int k = 0; k < OTX_COMPANION_COUNT; ++k)
         weights.maps[k] = options->match_maps[k];
-    return otx_match_maps_mix(run, &weights, exemplar);
+    return weights;
 }

@@ -258,6 +258,7 @@ build(
     otx_run *run = &call->run;
     osdtex_exemplar *handle = OTX_ZNEW(run->arena, osdtex_exemplar, 1);
     const otx_colour *colour;
+    otx_match_weights weights;
     int32_t made, width, height;
 
     OTX_TRY(otx_run_ok(run));
@@ -269,8 +270,10 @@ build(
     input->wrap = (otx_exemplar_wrap)options->wrap;
     handle->arena = run->arena;
     OTX_TRY(otx_exemplar_build(run, colour, input, &handle->exemplar));
-    OTX_TRY(otx_companion_pictures_take(call, options, &handle->exemplar));
-    OTX_TRY(otx_companion_pictures_match(run, options, &handle->exemplar));
+    OTX_TRY(otx_companion_pictures_take(
+        call, options, &handle->exemplar, &handle->exemplar.companions));
+    weights = otx_companion_pictures_weights(options);
+    OTX_TRY(otx_match_maps_mix(run, &weights, &handle->exemplar));
     width = handle->exemplar.linear.width;
     height = handle->exemplar.linear.height;
     handle->cuts = (otx_exemplar_cuts){

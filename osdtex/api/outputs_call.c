@@ -2,6 +2,7 @@
 #include "api/call.h"
 #include "export/names.h"
 #include "file/atomic_file.h"
+#include "file/leftovers.h"
 #include "file/temporary.h"
 
 #include <string.h>
@@ -168,5 +169,5 @@ void
 osdtex_outputs_sweep(const char *path)
 {
     if (path)
-        otx_temporary_sweep_own(path);
+        otx_leftovers_sweep_own(path);
 }

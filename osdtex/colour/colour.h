@@ -63,10 +63,6 @@ otx_status otx_colour_resolve(
     otx_run *run, const otx_colour *colour, const otx_colour_source *source,
     const char **space, const struct otx_decoder **decoder);
 
-/* The space of linear light that the configuration works in: role
- * scene_linear, else a well-known linear space, else NULL. */
-const char *otx_colour_scene_linear(const otx_colour *colour);
-
 /* The space that pixels are written in: `to`, else otx_colour_scene_linear.
  * The finding also says what a reader of the pixels must be told. */
 otx_status otx_colour_resolve_linear(

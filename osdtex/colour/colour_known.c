@@ -338,3 +338,11 @@ otx_colour_known_by_id(const otx_colour *colour, const char *id)
                ? space
                : otx_colour_known_by_chromaticities(colour, known->xy);
 }
+
+const char *
+otx_colour_scene_linear(const otx_colour *colour)
+{
+    const char *space = otx_ocio_role(colour->config, "scene_linear");
+
+    return space ? space : otx_colour_known_linear(colour);
+}

@@ -23,6 +23,10 @@ bool otx_colour_from_aces(
 /* The first linear space that is found by one of its usual names. */
 const char *otx_colour_known_linear(const otx_colour *colour);
 
+/* The space of linear light that the configuration works in: role
+ * scene_linear, else a well-known linear space, else NULL. */
+const char *otx_colour_scene_linear(const otx_colour *colour);
+
 /* The linear space of these primaries and white, whatever its name. */
 const char *
 otx_colour_known_by_chromaticities(const otx_colour *colour, const float xy[8]);

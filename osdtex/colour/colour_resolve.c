@@ -238,14 +238,6 @@ say_linear(
     return OSDTEX_OK;
 }
 
-const char *
-otx_colour_scene_linear(const otx_colour *colour)
-{
-    const char *space = otx_ocio_role(colour->config, "scene_linear");
-
-    return space ? space : otx_colour_known_linear(colour);
-}
-
 otx_status
 otx_colour_resolve_linear(
     otx_run *run, const otx_colour *colour, const char *to, const char **space)

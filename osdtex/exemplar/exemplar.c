@@ -6,6 +6,7 @@
  * not depend on the number of threads. */
 #include "exemplar/exemplar.h"
 
+#include "colour/colour_known.h"
 #include "colour/decoder.h"
 #include "exemplar/statistics.h"
 #include "exemplar/tileable.h"

@@ -10,6 +10,7 @@
 #include "file/atomic_file.h"
 
 #include "file/journal.h"
+#include "file/leftovers.h"
 #include "file/mark.h"
 #include "file/temporary.h"
 
@@ -165,7 +166,7 @@ otx_atomic_file_add(
     if (!e || !e->path)
         return otx_fail_memory(run, STAGE);
     if (!knows_folder(set, path))
-        otx_temporary_sweep(path);
+        otx_leftovers_sweep(path);
     OTX_TRY(check_target(run, path, &e->existed));
     error = otx_temporary_create(set->arena, path, NULL, &e->temporary);
     if (error == ENOMEM)

@@ -2,7 +2,7 @@
 #include "file/mtlx.h"
 
 #include "file/text_out.h"
-#include "file/usda.h"
+#include "file/usda_name.h"
 
 #include <string.h>
 

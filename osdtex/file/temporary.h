@@ -9,18 +9,24 @@
 
 #include "base/arena.h"
 
+enum
+{
+    OTX_TEMPORARY_LEAD_BYTES = 64 /* ".tmp-MACHINE-", "PROCESS-NUMBER" */
+};
+
 /* Makes a file that nobody else has beside `path`: an empty one or, with
  * `of`, a second name for that file. Its name lives in `arena`. Returns 0 or an
  * error number (ENOMEM when memory is out); then *out is NULL. */
 int otx_temporary_create(
     otx_arena *arena, const char *path, const char *of, const char **out);
 
-/* Removes temporaries from the folder of `path` whose processes ran on this
- * machine and are no more. Sets of files that they were giving names to are
- * completed first (file/journal.h). */
-void otx_temporary_sweep(const char *path);
+/* ".tmp-MACHINE-", of which numbers of processes are: of one machine and, in
+ * containers, one space of numbers. */
+void otx_temporary_machine(char lead[OTX_TEMPORARY_LEAD_BYTES]);
 
-/* Removes those of this process, which is about to end. */
-void otx_temporary_sweep_own(const char *path);
+/* The process in a name that ends in ".tmp-MACHINE-PROCESS-NUMBER"; 0 none.
+ *
+ *   machine  as otx_temporary_machine has it */
+long otx_temporary_process(const char *name, const char *machine);
 
 #endif

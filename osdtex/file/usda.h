@@ -62,8 +62,4 @@ typedef struct otx_usda
 otx_status otx_usda_write(
     otx_run *run, const otx_usda *usda, const char *path, const char *title);
 
-/* `name` as an identifier of USD: letters, digits and `_`, not a digit first,
- * not empty. In `arena`; NULL when memory is out. */
-char *otx_usda_identifier(otx_arena *arena, const char *name);
-
 #endif

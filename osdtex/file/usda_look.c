@@ -4,6 +4,8 @@
  * there, and scale and bias of the texture make vectors of them. */
 #include "file/usda_look.h"
 
+#include "file/usda_name.h"
+
 #include <stdio.h>
 #include <string.h>
 

@@ -449,6 +449,16 @@ use_windows(otx_canvas *c)
 }
 
 void
+otx_canvas_seek_own(otx_canvas *c)
+{
+    const ptrdiff_t count = count_of(c);
+
+    for (ptrdiff_t i = 0; i < count; ++i)
+        c->uses[i] =
+            c->kinds[i] == OTX_SYNTH_FREE ? OTX_CANVAS_SEEK : OTX_CANVAS_NONE;
+}
+
+void
 otx_canvas_stir(otx_canvas *c, bool all)
 {
     if (all)

@@ -93,6 +93,9 @@ void otx_canvas_weigh(otx_canvas *canvas, float hole);
  * windows reach is used. */
 void otx_canvas_use_windows(otx_canvas *canvas);
 
+/* Only windows whose middle is the chart's own are for anything. */
+void otx_canvas_seek_own(otx_canvas *canvas);
+
 /* Marks all windows that a changed texel is in as stirred, or just all. */
 void otx_canvas_stir(otx_canvas *canvas, bool all);
 

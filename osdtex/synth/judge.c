@@ -13,23 +13,12 @@ enum
     STAGE_SCATTER = 0x7ffe0000 /* of random numbers; no pass has it */
 };
 
-/* Only windows whose middle is the chart's own are looked up. */
-static void
-seek_own(otx_canvas *c)
-{
-    const int32_t rows = c->height + 2 * OTX_CANVAS_RIM;
-
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)rows * c->stride; ++i)
-        c->uses[i] =
-            c->kinds[i] == OTX_SYNTH_FREE ? OTX_CANVAS_SEEK : OTX_CANVAS_NONE;
-}
-
 static otx_status
 search(
-    otx_run *run, otx_canvas *canvas, const otx_synth_chart *chart,
+    otx_run *run, otx_canvas *const *canvas, const otx_synth_chart *chart,
     const otx_judge_options *options, float apart)
 {
-    const otx_pattern *p = canvas->pattern;
+    const otx_pattern *p = (*canvas)->pattern;
     otx_nearest_pass pass = {
         .seed = options->seed,
         .stirred = true,
@@ -42,7 +31,7 @@ search(
     {
         pass.refresh = i == 0;
         pass.number = (uint32_t)i;
-        OTX_TRY(otx_nearest_search(run, &canvas, chart, 1, &pass));
+        OTX_TRY(otx_nearest_search(run, canvas, chart, 1, &pass));
     }
     return OSDTEX_OK;
 }
@@ -59,7 +48,7 @@ canvas_of(
     o.radius = o.coarse_radius = options->radius;
     OTX_TRY(otx_canvas_build(run, pattern, chart, &o, level + 1, stack));
     *out = &stack->levels[level];
-    seek_own(*out);
+    otx_canvas_seek_own(*out);
     return OSDTEX_OK;
 }
 
@@ -73,7 +62,7 @@ judge_chart(
     otx_canvas *c;
 
     OTX_TRY(canvas_of(run, pattern, chart, options, &stack, &c));
-    OTX_TRY(search(run, c, chart, options, 0.0f));
+    OTX_TRY(search(run, &c, chart, options, 0.0f));
     for (int32_t y = 0; y < c->height; ++y)
         for (int32_t x = 0; x < c->width; ++x)
         {
@@ -125,7 +114,7 @@ otx_judge_windows(
 
 /* Matches by chance, none of them near its own place. */
 static void
-scatter(otx_canvas *c, float apart, uint64_t seed)
+scatter(const otx_canvas *c, float apart, uint64_t seed, otx_synth_match *out)
 {
     const otx_pattern *p = c->pattern;
 
@@ -142,7 +131,7 @@ scatter(otx_canvas *c, float apart, uint64_t seed)
                 m.x += m.x < 0.5f * (float)p->width ? apart : -apart;
                 m.y += m.y < 0.5f * (float)p->height ? apart : -apart;
             }
-            c->matches[at] = m;
+            out[at] = m;
         }
 }
 
@@ -167,8 +156,8 @@ judge_itself(
             (float)(i % pattern->width) + 0.5f,
             (float)(i / pattern->width) + 0.5f, 1.0f, 0.0f};
     OTX_TRY(canvas_of(run, pattern, &chart, options, &stack, &c));
-    scatter(c, apart, options->seed);
-    OTX_TRY(search(run, c, &chart, options, apart));
+    scatter(c, apart, options->seed, c->matches);
+    OTX_TRY(search(run, &c, &chart, options, apart));
     values = OTX_NEW(run->scratch, double, (int64_t)c->width * c->height);
     OTX_TRY(otx_run_ok(run));
     *mean = 0.0;

@@ -84,6 +84,21 @@ class Tree(unittest.TestCase):
         self.put("osdtex/base/state.h", struct("state", 12))
         self.assertEqual(self.check(), "")
 
+    def test_parts_that_call_each_other(self):
+        for i in range(5):
+            for a, b in ((f"a{i}", f"b{i}"), (f"b{i}", f"a{i}")):
+                self.put(f"osdtex/base/{a}.h",
+                         f"typedef int otx_{a};\nint otx_{a}_do(void);\n")
+                self.put(f"osdtex/base/{a}.c",
+                         f"int\notx_{a}_do(void)\n{{\n"
+                         f"    return otx_{b}_do();\n}}\n")
+        self.assertIn("a circle: base/a0, base/b0", self.check())
+        # To know what a type is like is no call.
+        self.put("osdtex/base/b0.c",
+                 "int\notx_b0_do(void)\n{\n    otx_a0 a = 0;\n"
+                 "    return a;\n}\n")
+        self.assertEqual(self.check(), "")
+
     def test_source_without_its_test(self):
         self.put("osdtex/base/a.c", "\n" * 201)
         self.put("osdtex/cli/b.c", "\n" * 201)

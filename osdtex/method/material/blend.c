@@ -8,6 +8,8 @@
  * same steps along it, so that the colour does not jump. */
 #include "method/material/material.h"
 
+#include "method/material/solved_face.h"
+
 #include "cluster/dual.h"
 
 enum

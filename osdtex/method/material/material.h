@@ -97,12 +97,6 @@ typedef struct otx_material
     otx_material_tally tally;
 } otx_material;
 
-/* lattice_cells.c: texels per scene unit that are asked for on a leaf face. */
-double otx_material_density(const otx_material *m, int32_t leaf_face);
-
-/* The face of the solved level above a leaf face. */
-int32_t otx_material_solved_face(const otx_material *m, int32_t leaf_face);
-
 /* Coordinates of leaf corners, [leaf corner_count] in `arena`, from those of
  * the solved level: linear along edges and to the middle of faces. MEMORY. */
 otx_status otx_material_refine(

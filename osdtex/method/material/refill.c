@@ -4,6 +4,8 @@
  * the exemplar that follow the same field continue what is around them. */
 #include "method/material/material.h"
 
+#include "method/material/solved_face.h"
+
 #include "cluster/dual.h"
 #include "flatten/stretch.h"
 

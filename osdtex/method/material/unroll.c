@@ -6,6 +6,8 @@
  * the way round ends, and closed again after a length that the exemplar has. */
 #include "method/material/strips.h"
 
+#include "method/material/solved_face.h"
+
 #include "base/union_find.h"
 #include "mapping/seam.h"
 #include "math/sparse.h"

@@ -4,6 +4,7 @@
 
 #include "file/atomic_file.h"
 #include "file/journal.h"
+#include "file/leftovers.h"
 #include "file/temporary.h"
 
 #include <dirent.h>
@@ -138,7 +139,7 @@ half_a_set_is_completed(void **state)
         unlink(f->paths[2]);
         be_killed(f, at);
         assert_int_equal(count_new(f), at);
-        otx_temporary_sweep(f->paths[0]);
+        otx_leftovers_sweep(f->paths[0]);
         assert_int_equal(count_new(f), FILES);
         assert_int_equal(count_temporaries(f, NULL), 0);
     }
@@ -183,7 +184,7 @@ a_name_that_was_taken_stops_it(void **state)
     test_put(f->paths[2], "old");
     be_killed(f, 1);
     test_put(f->paths[2], "theirs");
-    otx_temporary_sweep(f->paths[0]);
+    otx_leftovers_sweep(f->paths[0]);
     assert_true(test_holds(f->paths[1], "old"));
     assert_true(test_holds(f->paths[2], "theirs"));
     assert_int_equal(count_temporaries(f, NULL), 0);
@@ -200,7 +201,7 @@ a_journal_that_was_cut_short_is_no_journal(void **state)
     assert_int_equal(count_temporaries(f, journal), FILES);
     assert_int_equal(stat(journal, &info), 0);
     assert_int_equal(truncate(journal, info.st_size - 1), 0);
-    otx_temporary_sweep(f->paths[0]);
+    otx_leftovers_sweep(f->paths[0]);
     assert_int_equal(count_new(f), 1);
     assert_int_equal(count_temporaries(f, NULL), 0);
 }
@@ -261,7 +262,7 @@ a_process_that_leaves_removes_its_own(void **state)
             otx_atomic_file_add(f->run, set, f->paths[i], &temporary),
             OSDTEX_OK);
     assert_int_equal(count_temporaries(f, NULL), FILES);
-    otx_temporary_sweep_own(f->paths[0]);
+    otx_leftovers_sweep_own(f->paths[0]);
     assert_int_equal(count_temporaries(f, NULL), 0);
     assert_true(test_holds(f->paths[0], "old"));
 }

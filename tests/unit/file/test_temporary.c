@@ -2,6 +2,7 @@
  * and gone with the process that made them. */
 #include "folder.h"
 
+#include "file/leftovers.h"
 #include "file/temporary.h"
 
 #include <errno.h>
@@ -101,7 +102,7 @@ long_names_are_made_shorter(void **state)
     b = create(run, test_path(*state, name), NULL);
     assert_true(strlen(base_of(a)) <= NAME_MAX);
     assert_string_not_equal(a, b);
-    otx_temporary_sweep_own(a);
+    otx_leftovers_sweep_own(a);
     assert_false(is_there(a) || is_there(b));
     test_run_destroy(run);
 }
@@ -155,11 +156,11 @@ only_what_the_dead_have_left_is_swept(void **state)
     assert_int_equal(mkdir(folder, 0700), 0);
     snprintf(cut, sizeof cut, "%s.exr", dead);
     test_write_bytes(cut, (const uint8_t *)"", 0);
-    otx_temporary_sweep(path);
+    otx_leftovers_sweep(path);
     assert_false(is_there(dead));
     assert_true(is_there(own) && is_there(foreign));
     assert_true(is_there(folder) && is_there(cut));
-    otx_temporary_sweep_own(path);
+    otx_leftovers_sweep_own(path);
     assert_false(is_there(own));
     assert_true(is_there(foreign) && is_there(folder));
     rmdir(folder);
@@ -197,8 +198,8 @@ what_cannot_be_made_is_an_error(void **state)
     otx_arena_destroy(arena);
     otx_allocator_destroy(allocator);
     /* Folders that are not there have nothing to sweep. */
-    otx_temporary_sweep(test_path(*state, "none/a.exr"));
-    otx_temporary_sweep_own(test_path(*state, "none/a.exr"));
+    otx_leftovers_sweep(test_path(*state, "none/a.exr"));
+    otx_leftovers_sweep_own(test_path(*state, "none/a.exr"));
     test_run_destroy(run);
 }
 
