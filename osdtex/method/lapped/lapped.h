@@ -184,7 +184,8 @@ double otx_lapped_alpha(const otx_lapped_paste *paste, otx_vec2 at);
 
 /* Marks the samples that a paste covers, and keeps what it shows there. Returns
  * how many it is the first to cover. */
-int64_t otx_lapped_mark(otx_lapped *l, const otx_lapped_paste *paste);
+int64_t otx_lapped_mark(
+    const otx_lapped *l, const otx_lapped_paste *paste, otx_samples *samples);
 
 /* Lays pieces down until every sample is covered. */
 otx_status otx_lapped_paste_all(otx_lapped *l);

@@ -366,7 +366,7 @@ lay(void *context, int64_t index, otx_worker *worker)
         OTX_TRY(lay_splotch(p, &room, s));
     if (s->paste.piece_count == 0)
         return OSDTEX_OK;
-    s->fresh = otx_lapped_mark(p->l, &s->paste);
+    s->fresh = otx_lapped_mark(p->l, &s->paste, &p->l->samples);
     /* Its own seed, whatever comes of rounding. */
     s->fresh += otx_samples_set(&p->l->samples, s->seed.face, s->sample);
     return OSDTEX_OK;

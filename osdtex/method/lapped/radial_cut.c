@@ -259,7 +259,8 @@ otx_lapped_cut(
 }
 
 int64_t
-otx_lapped_mark(otx_lapped *l, const otx_lapped_paste *paste)
+otx_lapped_mark(
+    const otx_lapped *l, const otx_lapped_paste *paste, otx_samples *samples)
 {
     const otx_lapped_chart *c = &paste->chart;
     int64_t fresh = 0;
@@ -275,12 +276,12 @@ otx_lapped_mark(otx_lapped *l, const otx_lapped_paste *paste)
                 const double alpha = otx_lapped_alpha(paste, at);
 
                 if (alpha >= OTX_LAPPED_COVERED)
-                    fresh += otx_samples_set(
-                        &l->samples, c->faces[i], facet.first + s);
+                    fresh +=
+                        otx_samples_set(samples, c->faces[i], facet.first + s);
                 if (alpha >= SHOWN)
                     texel_of(
                         l, otx_vec2_add(paste->centre, at),
-                        l->samples.shown + 3 * (facet.first + s));
+                        samples->shown + 3 * (facet.first + s));
             }
         }
     return fresh;

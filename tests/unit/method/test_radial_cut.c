@@ -166,7 +166,7 @@ marks_are_those_of_the_cut(void **state)
     int64_t left = 0;
 
     *p.pieces[0].cut = paste_circle(20.0, 2.0);
-    s->left -= otx_lapped_mark(&b->l, &p);
+    s->left -= otx_lapped_mark(&b->l, &p, s);
     for (int32_t i = 0; i < p.chart.face_count; ++i)
         for (int32_t k = 0; k < otx_samples_count(s, p.chart.faces[i]); ++k)
         {
