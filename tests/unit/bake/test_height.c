@@ -37,6 +37,52 @@ uneven(otx_run *run)
     return surface;
 }
 
+/* The same sheet of triangles, of quads on UVs of its own which are cut between
+ * all of them, turned and of other sizes. */
+static otx_surface *
+other_sheet(otx_run *run, bool triangles)
+{
+    otx_cage_options options = otx_cage_options_default();
+    otx_cage *cage = OTX_NEW(run->arena, otx_cage, 1);
+    otx_surface *surface = OTX_NEW(run->arena, otx_surface, 1);
+    otx_cage_input in = mesh_grid(run, N);
+    int32_t *verts = OTX_NEW(run->arena, int32_t, 6 * N * N);
+    int32_t *own = OTX_NEW(run->arena, int32_t, 4 * N * N);
+    float *uvs = OTX_NEW(run->arena, float, 8 * N * N);
+
+    for (int32_t f = 0; f < N * N; ++f)
+    {
+        const int32_t *q = in.face_verts + 4 * f;
+        const int32_t split[6] = {q[0], q[1], q[2], q[0], q[2], q[3]};
+        const otx_vec2 x = otx_vec2_scale(
+            0.1 + 0.1 * otx_random_unit(3, 1, (uint64_t)f),
+            otx_vec2_polar(6.0 * otx_random_unit(3, 2, (uint64_t)f)));
+
+        memcpy(verts + 6 * f, split, sizeof split);
+        for (int32_t k = 0; k < 4; ++k)
+        {
+            const otx_vec2 corner = {(k == 1 || k == 2) - 0.5, (k > 1) - 0.5};
+            const otx_vec2 at = otx_vec2_mul(x, corner);
+
+            own[4 * f + k] = 4 * f + k;
+            uvs[8 * f + 2 * k] = (float)((f % N + 0.5) / N + at.x);
+            uvs[8 * f + 2 * k + 1] = (float)((f / N + 0.5) / N + at.y);
+        }
+    }
+    if (triangles)
+        in = mesh_input(run, in.points, (N + 1) * (N + 1), verts, 2 * N * N, 3);
+    else
+    {
+        in.uvs = uvs;
+        in.uv_count = 4 * N * N;
+        in.face_uvs = own;
+    }
+    options.scheme = OTX_SCHEME_CATMARK;
+    *cage = mesh_build(run, &in, &options);
+    *surface = mesh_refine(run, cage, 2);
+    return surface;
+}
+
 /* A patch of its own for each face of the cage, turned and placed anyhow, so
  * that every rim is a seam as well. */
 static otx_mapping *
@@ -252,6 +298,39 @@ test_rims_meet(void **state)
     test_run_destroy(run);
 }
 
+/* What is left of smooth waves where both sides have other texels: told, and
+ * held to what it is. */
+static void
+test_other_rims_are_told(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 2; ++kind)
+    {
+        otx_run *run = test_run_create();
+        const otx_surface *surface = other_sheet(run, kind == 0);
+        const otx_mapping *mapping = patches(run, surface);
+        const otx_layout layout = flat_layout(
+            run, mapping, kind == 0 ? OTX_LAYOUT_ATLAS : OTX_LAYOUT_OWN, SIDE,
+            MARGIN);
+        const otx_exemplar *exemplar = waves(run, mapping->scale);
+        const flat_levels b = bake(run, mapping, exemplar, &layout, take, 1);
+
+        for (int32_t l = 0; l < 5; ++l)
+        {
+            int32_t rims;
+            const double gap = largest_gap(&layout, &b.levels[l], &rims);
+
+            print_message(
+                "%s, level %d: gaps up to %.3f of the range over %d rims\n",
+                kind == 0 ? "triangles of an atlas" : "own UVs", l, gap / 0.05,
+                rims);
+            assert_true(rims > 0);
+            assert_true(gap < (kind == 0 ? 0.2 : 0.3) * 0.05);
+        }
+        test_run_destroy(run);
+    }
+}
+
 /* The normal of a baked height at a texel of a leaf face, in the frame of the
  * texture, from differences over two texels; false near the face's rim. */
 static bool
@@ -370,6 +449,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rims_meet),
+        cmocka_unit_test(test_other_rims_are_told),
         cmocka_unit_test(test_normals_are_of_the_heights),
     };
 
