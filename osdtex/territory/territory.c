@@ -10,7 +10,8 @@ enum
     HALVINGS = 8 /* of cores that fold */
 };
 
-#define BEND 1.0 /* how much borders of cores prefer bends */
+#define BEND 1.0         /* how much borders of cores prefer bends */
+#define STRETCH_MOST 1.8 /* of a face of a core, while it can be halved */
 
 /* Cores that wait to be laid out, of the leaf level. */
 typedef struct core_list
@@ -33,6 +34,7 @@ typedef struct layout_job
     otx_chart *charts;
     int32_t count;
     int32_t collars; /* widths to try */
+    double most;     /* stretch of a core's face */
 } layout_job;
 
 /* Leaf faces that show exemplar k; the count. */
@@ -115,7 +117,7 @@ lay_out(void *context, int64_t index, otx_worker *worker)
             &request, core->faces, core->face_count,
             &job->spaces[worker->index], worker->scratch, job->arenas[index],
             chart));
-        if (chart->worst < (double)INFINITY)
+        if (chart->worst < job->most)
             return OSDTEX_OK;
     }
     chart->face_count = chart->core_count = 0;
@@ -135,7 +137,7 @@ static otx_status
 lay_out_all(
     otx_run *run, const otx_territory_options *options,
     const otx_surface *surface, const otx_growing *how, const core_list *list,
-    int32_t collars, layout_job **out)
+    int32_t collars, double most, layout_job **out)
 {
     const int32_t threads = otx_pool_threads(run->pool);
     layout_job *job = OTX_NEW(run->scratch, layout_job, 1);
@@ -151,7 +153,8 @@ lay_out_all(
         .arenas = OTX_ZNEW(run->scratch, otx_arena *, list->count),
         .charts = OTX_ZNEW(run->scratch, otx_chart, list->count),
         .count = list->count,
-        .collars = collars};
+        .collars = collars,
+        .most = most};
     OTX_TRY(otx_run_ok(run));
     if (!otx_arena_defer(run->scratch, free_arenas, job))
         return otx_fail_memory(run, "charts");
@@ -263,8 +266,9 @@ otx_territory_build(
     {
         layout_job *job = NULL;
 
-        OTX_TRY(
-            lay_out_all(run, options, surface, &how, &list, COLLARS + i, &job));
+        OTX_TRY(lay_out_all(
+            run, options, surface, &how, &list, COLLARS + i,
+            i < HALVINGS ? STRETCH_MOST : (double)INFINITY, &job));
         OTX_TRY(keep_charts(run, job, &list, out));
         OTX_TRY(halve_folded(run, &how, job, &list));
     }
