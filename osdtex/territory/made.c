@@ -11,13 +11,16 @@ typedef struct field_maker
     float *places, *metric;
 } field_maker;
 
-/* Marks the faces of a core that have a texel that was made. */
+/* Marks the faces of a core that have a texel that was made; where all of it
+ * was, those that are smaller than a texel, too. */
 static void
 mark_faces(field_maker *m, int32_t k)
 {
     const otx_plot *plot = &m->h->plots[k];
     const int64_t count = (int64_t)plot->width * plot->height;
 
+    for (int32_t i = 0; m->h->whole && i < plot->chart->core_count; ++i)
+        m->face_chart[plot->chart->faces[i]] = k;
     for (int64_t i = 0; i < count; ++i)
         if (m->h->targets[k].kinds[i] == OTX_SYNTH_FREE)
             m->face_chart[plot->chart
