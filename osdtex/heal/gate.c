@@ -15,6 +15,7 @@ otx_gate_judge_exemplar(
     double ignored;
 
     options.seed = set->run->seed;
+    options.passes = 12; /* from nothing */
     return otx_judge_itself(
         set->run, pattern, AWAY, &options, 0.9, out, &ignored);
 }

@@ -12,7 +12,8 @@ enum
     CORE = 288,      /* texels across, of what a chart makes */
     LONGEST = 128,   /* texels of a section */
     AGAIN = 24,      /* texels beside a band that is undone */
-    LEVELS_AGAIN = 3 /* of what is made again, which is whole already */
+    LEVELS_AGAIN = 3, /* of what is made again, which is whole already */
+    ROUNDS_AGAIN = 4
 };
 
 #define SEEN 0.01 /* of the exemplar's spread: no less is a difference */
@@ -62,6 +63,7 @@ synthesise(
     options.levels = levels;
     options.coarse_radius = h->options->coarse_radius;
     options.starts = starts;
+    options.rounds = starts > 1 ? 0 : ROUNDS_AGAIN;
     options.seed = run->seed + (uint64_t)h->set.exemplar;
     options.stage = "heal";
     return otx_synth_run(

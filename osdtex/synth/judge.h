@@ -25,7 +25,7 @@ typedef struct otx_judge_options
 static inline otx_judge_options
 otx_judge_options_default(void)
 {
-    return (otx_judge_options){3, 3, 8, 0};
+    return (otx_judge_options){3, 3, 5, 0};
 }
 
 /* A chart at the level. */

@@ -23,6 +23,8 @@ rounds_at(const otx_maker *m, int32_t level)
 {
     if (level == 0 || level < m->level_count - 1)
         return ROUNDS[level];
+    if (m->options->rounds > 0)
+        return m->options->rounds;
     /* Charts that chose by themselves have to come to terms, where nothing
      * that was given stands between them. */
     return m->options->starts > 1 && m->options->given ? ROUNDS_CHOSEN

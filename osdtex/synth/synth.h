@@ -85,6 +85,7 @@ typedef struct otx_synth_options
     int32_t coarse_radius; /* at the coarsest level; 3 or 4 */
     bool given;            /* matches are a start; else it is random */
     int32_t starts;        /* at the coarsest level; the best is kept */
+    int32_t rounds;        /* there; 0: as many as a start by chance takes */
     double usage;          /* weight of what is overused, annealed to 0 */
     double histogram;      /* share of matching L to the exemplar's; 0 none */
     double turn;           /* search angles within +- of the match, radians */
