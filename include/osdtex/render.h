@@ -51,7 +51,8 @@ typedef struct osdtex_render_options
     int32_t unlit;    /* 1: the colours as they are */
     const char *show; /* "texture", "patches", "stretch", "seams", "uv",
                        * "normals", "flat", "field", "singularities",
-                       * "cells"; NULL: texture */
+                       * "cells", "windows" (of a mapping);
+                       * NULL: texture */
     const char *view; /* "three_quarter", "front", "back", "left", "right",
                        * "top"; "seam1" to "seam99": close to the places
                        * where seams show, the worst first; NULL:

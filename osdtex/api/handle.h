@@ -101,6 +101,7 @@ struct osdtex_model
     const otx_surface *surface;
     const otx_guide *guide;
     const otx_cell_map *lattice;
+    const osdtex_mapping *mapping; /* that it shows; NULL none */
 };
 
 #endif

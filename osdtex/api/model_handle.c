@@ -452,6 +452,7 @@ create_model(otx_call *call, const osdtex_mapping *mapping, osdtex_model **out)
     set_origin(handle);
     handle->guide = mapping->mapping.guide;
     handle->lattice = mapping->mapping.lattice;
+    handle->mapping = mapping;
     *out = handle;
     return OSDTEX_OK;
 }

@@ -288,7 +288,9 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"show", 0, OTX_FLAG_GROUP_PICTURE, "WHAT",
          "of the picture or preview: texture, patches, stretch, seams, uv, "
          "normals, flat, field, "
-         "singularities or cells (default texture)"},
+         "singularities, cells or, of a mapping that is saved, windows: how "
+         "far "
+         "what is seen is from the exemplar (default texture)"},
     [OTX_FLAG_UNLIT] =
         {"unlit", 0, OTX_FLAG_GROUP_PICTURE, NULL,
          "the colours as they are, without light"},

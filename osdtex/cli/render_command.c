@@ -131,7 +131,8 @@ read_saved(osdtex_context *context, job *j)
     osdtex_status status;
 
     options.cage = j->path;
-    options.without_figures = 1;
+    options.without_figures =
+        !j->picture.show || strcmp(j->picture.show, "windows") != 0;
     j->path = j->saved;
     status = osdtex_mapping_read(context, j->saved, &options, &j->mapping);
     return status == OSDTEX_OK

@@ -90,24 +90,33 @@ find_interior(
 }
 
 otx_status
+otx_gate_look(otx_target_set *set, const otx_pattern *pattern, otx_judged *out)
+{
+    const int32_t count = set->territory.count;
+    otx_judge_options options = otx_judge_options_default();
+    otx_synth_chart *charts =
+        OTX_NEW(set->run->scratch, otx_synth_chart, count);
+
+    options.seed = set->run->seed;
+    OTX_TRY(otx_run_ok(set->run));
+    OTX_TRY(charts_of(set, charts));
+    return otx_judge_windows(set->run, pattern, charts, count, &options, out);
+}
+
+otx_status
 otx_gate_judge(
     otx_target_set *set, const otx_pattern *pattern,
     const otx_section_list *list, otx_gate_view *out)
 {
     otx_arena *arena = set->run->scratch;
     const int32_t count = set->territory.count;
-    otx_judge_options options = otx_judge_options_default();
-    otx_synth_chart *charts = OTX_NEW(arena, otx_synth_chart, count);
 
-    options.seed = set->run->seed;
     *out = (otx_gate_view){
         .judged = OTX_NEW(arena, otx_judged, count),
         .on = OTX_ZNEW(arena, otx_section_sum, list->count),
         .around = OTX_ZNEW(arena, otx_section_sum, list->count)};
     OTX_TRY(otx_run_ok(set->run));
-    OTX_TRY(charts_of(set, charts));
-    OTX_TRY(otx_judge_windows(
-        set->run, pattern, charts, count, &options, out->judged));
+    OTX_TRY(otx_gate_look(set, pattern, out->judged));
     for (int32_t k = 0; k < count; ++k)
     {
         if (out->judged[k].width == 0)

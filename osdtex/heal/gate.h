@@ -25,6 +25,10 @@ otx_status otx_gate_judge(
     otx_target_set *set, const otx_pattern *pattern,
     const otx_section_list *list, otx_gate_view *out);
 
+/* The windows of all charts of the exemplar at hand alone. */
+otx_status
+otx_gate_look(otx_target_set *set, const otx_pattern *pattern, otx_judged *out);
+
 /* The mean distance of the exemplar at hand from the rest of itself. */
 otx_status otx_gate_judge_exemplar(
     otx_target_set *set, const otx_pattern *pattern, double *out);

@@ -9,9 +9,9 @@
 
 enum
 {
-    CORE = 288,      /* texels across, of what a chart makes */
-    LONGEST = 128,   /* texels of a section */
-    AGAIN = 24,      /* texels beside a band that is undone */
+    CORE = 288,       /* texels across, of what a chart makes */
+    LONGEST = 128,    /* texels of a section */
+    AGAIN = 24,       /* texels beside a band that is undone */
     LEVELS_AGAIN = 3, /* of what is made again, which is whole already */
     ROUNDS_AGAIN = 4
 };
@@ -55,7 +55,7 @@ list_seams(healer *h, otx_heal_figures *figures)
 static otx_status
 synthesise(
     healer *h, const otx_pattern *pattern, const otx_synth_chart *charts,
-    int32_t levels, int32_t starts)
+    int32_t levels, int32_t starts, int32_t rounds)
 {
     otx_run *run = h->set.run;
     otx_synth_options options = otx_synth_mending();
@@ -63,7 +63,7 @@ synthesise(
     options.levels = levels;
     options.coarse_radius = h->options->coarse_radius;
     options.starts = starts;
-    options.rounds = starts > 1 ? 0 : ROUNDS_AGAIN;
+    options.rounds = rounds;
     options.seed = run->seed + (uint64_t)h->set.exemplar;
     options.stage = "heal";
     return otx_synth_run(
@@ -206,7 +206,7 @@ check(
         OTX_TRY(fill(h, &free));
         otx_undo_freeze(set, &kept);
         otx_target_charts(set, charts);
-        OTX_TRY(synthesise(h, pattern, charts, LEVELS_AGAIN, 1));
+        OTX_TRY(synthesise(h, pattern, charts, LEVELS_AGAIN, 1, ROUNDS_AGAIN));
         otx_undo_thaw(set, &kept);
         read_collars(h);
         OTX_TRY(otx_gate_judge(set, pattern, &h->sections, &after));
@@ -239,13 +239,15 @@ heal_exemplar(healer *h)
         OTX_TRY(otx_gate_judge_exemplar(set, &pattern, &h->itself));
         OTX_TRY(otx_gate_judge(set, &pattern, &h->sections, &before));
         choose(h, &before);
+        tell(h, &before, 0);
+        tell(h, &before, 1);
         OTX_TRY(fill(h, &free));
         if (free == 0)
             return OSDTEX_OK;
     }
     otx_target_charts(set, charts);
     OTX_TRY(synthesise(
-        h, &pattern, charts, h->options->levels, h->options->starts));
+        h, &pattern, charts, h->options->levels, h->options->starts, 0));
     if (!h->options->gate)
         return OSDTEX_OK;
     return check(h, &pattern, charts, &before);

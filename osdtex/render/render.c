@@ -25,6 +25,7 @@ static const char *const SHOW_NAMES[OTX_SHOW_COUNT] = {
     [OTX_SHOW_FIELD] = "field",
     [OTX_SHOW_SINGULARITIES] = "singularities",
     [OTX_SHOW_CELLS] = "cells",
+    [OTX_SHOW_WINDOWS] = "windows",
 };
 
 /* What the tiles of a picture share. */

@@ -21,6 +21,7 @@ typedef enum otx_show
     OTX_SHOW_FIELD,         /* the overlay on clay */
     OTX_SHOW_SINGULARITIES, /* the overlay's dots on a pale texture */
     OTX_SHOW_CELLS,         /* the overlay on a pale texture */
+    OTX_SHOW_WINDOWS,       /* scene.face_windows as STRETCH is shown */
     OTX_SHOW_COUNT
 } otx_show;
 
@@ -44,7 +45,7 @@ typedef struct otx_render_options
 otx_render_options otx_render_defaults(void);
 
 /* "texture", "patches", "stretch", "seams", "uv", "normals", "flat", "field",
- * "singularities", "cells". */
+ * "singularities", "cells", "windows". */
 const char *otx_render_show_name(otx_show show);
 bool otx_render_show_find(const char *name, otx_show *out);
 

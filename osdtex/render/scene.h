@@ -45,6 +45,9 @@ typedef struct otx_scene
     const int32_t *face_patch; /* [face_count] */
     /* Distortion, 1 is none. NULL: see render/distortion.h. */
     const float *face_stretch; /* [face_count] */
+    /* How far what a face shows is from the exemplar, 1 is usual; below 0: not
+     * known. NULL: of none. */
+    const float *face_windows; /* [face_count] */
 } otx_scene;
 
 /* Sets vert_normals to the mean of the faces around each vertex, weighted by

@@ -371,6 +371,12 @@ surface_color(
         if (shade->stretch)
             otx_tint_stretch(shade->stretch[hit->face], rgb);
         return;
+    case OTX_SHOW_WINDOWS:
+        set_grey(0.18f, rgb);
+        if (shade->scene->face_windows &&
+            shade->scene->face_windows[hit->face] >= 0.0f)
+            otx_tint_stretch(shade->scene->face_windows[hit->face], rgb);
+        return;
     case OTX_SHOW_SEAMS:
         seam_color(shade, hit, at, rgb);
         return;

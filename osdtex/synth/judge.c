@@ -6,12 +6,88 @@
 #include "image/pyramid.h"
 #include "synth/nearest.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #define WHOLE 0.75f /* of a window that has to be there */
 
 enum
 {
     STAGE_SCATTER = 0x7ffe0000 /* of random numbers; no pass has it */
 };
+
+/* Three texels by three around each, so that the grids that two pictures were
+ * reduced on make less difference; of what is there.
+ *
+ *   kinds  VOID is not; NULL: all is there */
+static void
+blur_texel(
+    const otx_quad *in, const uint8_t *kinds, int32_t quads, ptrdiff_t at,
+    ptrdiff_t up, otx_quad *out)
+{
+    float weight = 0.0f;
+
+    for (int32_t q = 0; q < quads; ++q)
+        out[q] = (otx_quad){0.0f, 0.0f, 0.0f, 0.0f};
+    for (int32_t j = -1; j <= 1; ++j)
+        for (int32_t i = -1; i <= 1; ++i)
+        {
+            const ptrdiff_t from = at + j * up + i;
+            const float w = (float)((2 - abs(i)) * (2 - abs(j)));
+
+            if (kinds && kinds[from] == OTX_SYNTH_VOID)
+                continue;
+            for (int32_t q = 0; q < quads; ++q)
+                out[q] += in[from * quads + q] * w;
+            weight += w;
+        }
+    for (int32_t q = 0; q < quads && weight > 0.0f; ++q)
+        out[q] /= weight;
+}
+
+static otx_status
+blur(
+    otx_run *run, const otx_quad *in, const uint8_t *kinds, int32_t quads,
+    int32_t width, int32_t height, otx_quad **out)
+{
+    *out = OTX_NEW(run->scratch, otx_quad, (int64_t)width * height * quads);
+    if (!*out)
+        return otx_fail_memory(run, "judge");
+    memcpy(
+        *out, in, (size_t)width * (size_t)height * (size_t)quads * sizeof *in);
+    for (int32_t y = 1; y < height - 1; ++y)
+        for (int32_t x = 1; x < width - 1; ++x)
+        {
+            const ptrdiff_t at = (ptrdiff_t)y * width + x;
+
+            blur_texel(in, kinds, quads, at, width, *out + at * quads);
+        }
+    return OSDTEX_OK;
+}
+
+/* The pattern with one level blurred, in run->scratch. */
+static otx_status
+blur_pattern(
+    otx_run *run, const otx_pattern *pattern, int32_t level, otx_pattern *out)
+{
+    otx_pattern_level *l = &out->levels[level];
+    otx_quad *values;
+
+    *out = *pattern;
+    OTX_TRY(blur(
+        run, l->values, NULL, pattern->quads, l->stride,
+        l->height + 2 * OTX_PATTERN_RIM, &values));
+    l->values = values;
+    return OSDTEX_OK;
+}
+
+static int32_t
+level_of(const otx_pattern *pattern, const otx_judge_options *options)
+{
+    const int32_t most = pattern->level_count - 1;
+
+    return options->level < most ? options->level : most;
+}
 
 static otx_status
 search(
@@ -41,27 +117,30 @@ canvas_of(
     otx_run *run, const otx_pattern *pattern, const otx_synth_chart *chart,
     const otx_judge_options *options, otx_canvas_stack *stack, otx_canvas **out)
 {
-    const int32_t most = pattern->level_count - 1;
-    const int32_t level = options->level < most ? options->level : most;
+    const int32_t level = level_of(pattern, options);
     otx_synth_options o = otx_synth_mending();
 
     o.radius = o.coarse_radius = options->radius;
     OTX_TRY(otx_canvas_build(run, pattern, chart, &o, level + 1, stack));
     *out = &stack->levels[level];
     otx_canvas_seek_own(*out);
-    return OSDTEX_OK;
+    return blur(
+        run, (*out)->colors, (*out)->kinds, pattern->quads, (*out)->stride,
+        (*out)->height + 2 * OTX_CANVAS_RIM, &(*out)->colors);
 }
 
 static otx_status
 judge_chart(
-    otx_run *run, const otx_pattern *pattern, const otx_synth_chart *chart,
-    const otx_judge_options *options, otx_judged *out)
+    otx_run *run, const otx_pattern *pattern, const otx_pattern *blurred,
+    const otx_synth_chart *chart, const otx_judge_options *options,
+    otx_judged *out)
 {
     const int32_t side = 2 * options->radius + 1;
     otx_canvas_stack stack;
     otx_canvas *c;
 
     OTX_TRY(canvas_of(run, pattern, chart, options, &stack, &c));
+    c->pattern = blurred;
     OTX_TRY(search(run, &c, chart, options, 0.0f));
     for (int32_t y = 0; y < c->height; ++y)
         for (int32_t x = 0; x < c->width; ++x)
@@ -82,8 +161,8 @@ otx_judge_windows(
     otx_run *run, const otx_pattern *pattern, const otx_synth_chart *charts,
     int32_t count, const otx_judge_options *options, otx_judged *out)
 {
-    const int32_t most = pattern->level_count - 1;
-    const int32_t level = options->level < most ? options->level : most;
+    const int32_t level = level_of(pattern, options);
+    otx_pattern blurred;
 
     for (int32_t k = 0; k < count; ++k)
     {
@@ -100,12 +179,14 @@ otx_judge_windows(
             OTX_NEW(run->scratch, float, (int64_t)out[k].width *out[k].height);
     }
     OTX_TRY(otx_run_ok(run));
+    OTX_TRY(blur_pattern(run, pattern, level, &blurred));
     for (int32_t k = 0; k < count; ++k)
     {
         const otx_arena_mark mark = otx_arena_here(run->scratch);
 
         if (charts[k].width > 0)
-            OTX_TRY(judge_chart(run, pattern, &charts[k], options, &out[k]));
+            OTX_TRY(judge_chart(
+                run, pattern, &blurred, &charts[k], options, &out[k]));
         otx_arena_release(run->scratch, mark);
         OTX_TRY(otx_progress(run, "judge", (k + 1.0) / count));
     }
@@ -146,6 +227,7 @@ judge_itself(
     const otx_synth_chart chart = {
         .width = pattern->width, .height = pattern->height, .matches = matches};
     otx_canvas_stack stack;
+    otx_pattern blurred;
     otx_canvas *c;
     double *values;
     size_t n = 0;
@@ -156,6 +238,8 @@ judge_itself(
             (float)(i % pattern->width) + 0.5f,
             (float)(i / pattern->width) + 0.5f, 1.0f, 0.0f};
     OTX_TRY(canvas_of(run, pattern, &chart, options, &stack, &c));
+    OTX_TRY(blur_pattern(run, pattern, c->level, &blurred));
+    c->pattern = &blurred;
     scatter(c, apart, options->seed, c->matches);
     OTX_TRY(search(run, &c, &chart, options, apart));
     values = OTX_NEW(run->scratch, double, (int64_t)c->width * c->height);

@@ -57,6 +57,18 @@ class Heal(ProgramTest):
                 windows["seams_before"], windows["interior_p90"])
             self.assertLess(windows["seams"], windows["seams_before"])
 
+    def test_windows_are_shown_of_what_is_saved(self):
+        self.bake("b", CAGE, PICTURE, "--level", "1", "--scale", "5", "--save",
+                  self.folder / "b.osdtex")
+        show = ("-o", self.folder / "w.png", "--size", "64x48", "--show",
+                "windows")
+        result = self.run_program(
+            "render", "--from", self.folder / "b.osdtex", *show)
+        self.assert_exit(result, 0)
+        self.assertIn("times as far from the exemplar", result.stderr)
+        result = self.run_program("render", self.folder / "b.obj", *show)
+        self.assert_error(result, 2, "windows are those of a mapping")
+
     def test_uvs_cannot_say_it(self):
         result = self.run_map(*MAPPED, *HEAL)
         self.assert_exit(result, 0)
