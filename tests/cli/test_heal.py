@@ -66,7 +66,8 @@ class Heal(ProgramTest):
             "render", "--from", self.folder / "b.osdtex", *show)
         self.assert_exit(result, 0)
         self.assertIn("times as far from the exemplar", result.stderr)
-        result = self.run_program("render", self.folder / "b.obj", *show)
+        result = self.run_program(
+            "render", self.folder / "b_cage.obj", *show)
         self.assert_error(result, 1, "windows are those of a mapping")
 
     def test_uvs_cannot_say_it(self):
