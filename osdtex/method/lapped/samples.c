@@ -109,7 +109,7 @@ otx_samples_facet(const otx_samples *cover, int32_t face)
 }
 
 bool
-otx_samples_set(otx_samples *cover, int32_t face, int64_t index)
+otx_samples_set(const otx_samples *cover, int32_t face, int64_t index)
 {
     const bool fresh = !cover->covered[index];
 

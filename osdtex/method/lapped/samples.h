@@ -60,6 +60,6 @@ int32_t otx_samples_facet(const otx_samples *cover, int32_t face);
 /* Marks sample `index` of all, one of the face's, as covered. Whether it was
  * not; `left` is the caller's to count, since faces may be marked by several
  * threads. */
-bool otx_samples_set(otx_samples *cover, int32_t face, int64_t index);
+bool otx_samples_set(const otx_samples *cover, int32_t face, int64_t index);
 
 #endif
