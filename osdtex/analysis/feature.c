@@ -364,6 +364,45 @@ drop_odd(otx_features *f)
     }
 }
 
+static double
+agreement(const otx_vec2 *list, int32_t count)
+{
+    otx_vec2 sum = {0, 0};
+    double lengths = 0.0;
+
+    for (int32_t i = 0; i < count; ++i)
+    {
+        sum = otx_vec2_add(sum, list[i]);
+        lengths += otx_vec2_length(list[i]);
+    }
+    return lengths > 0.0 ? otx_vec2_length(sum) / lengths : 0.0;
+}
+
+/* By long axes, doubled so that either end is the same, or by the side to which
+ * features reach out further: round ones have no axis, and bars no side.
+ *
+ *   moments  [2 * count] zeros */
+static double
+alignment(const plane *p, const otx_features *f, otx_vec2 *moments)
+{
+    otx_vec2 *sides = moments + f->count;
+
+    for (int32_t i = 0; i < p->width * p->height; ++i)
+    {
+        const int32_t index = f->labels[i] - 1;
+        otx_vec2 d;
+
+        if (index < 0)
+            continue;
+        d = otx_vec2_sub(
+            unwrapped(p, i, f->list[index].middle), f->list[index].middle);
+        moments[index] = otx_vec2_add(moments[index], otx_vec2_mul(d, d));
+        sides[index] =
+            otx_vec2_add(sides[index], otx_vec2_scale(otx_vec2_dot(d, d), d));
+    }
+    return fmax(agreement(moments, f->count), agreement(sides, f->count));
+}
+
 /* Specks are dropped, the others numbered anew. */
 static otx_status
 list_features(otx_run *run, const plane *p, int32_t found, otx_features *out)
@@ -372,6 +411,7 @@ list_features(otx_run *run, const plane *p, int32_t found, otx_features *out)
     int32_t *first = OTX_NEW(run->scratch, int32_t, found + 1);
     int32_t *number = OTX_ZNEW(run->scratch, int32_t, found + 1);
     otx_feature *list = OTX_ZNEW(run->arena, otx_feature, found + 1);
+    otx_vec2 *axes = OTX_ZNEW(run->scratch, otx_vec2, 2 * (found + 1));
 
     OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < found; ++i)
@@ -403,6 +443,7 @@ list_features(otx_run *run, const plane *p, int32_t found, otx_features *out)
                            unwrapped(p, i, f->middle), f->middle)));
     }
     drop_odd(out);
+    out->aligned = alignment(p, out, axes);
     return OSDTEX_OK;
 }
 

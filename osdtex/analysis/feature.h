@@ -26,6 +26,7 @@ typedef struct otx_features
     otx_feature *list; /* [count] */
     bool by_alpha;
     double share;   /* of the picture that is in features */
+    double aligned; /* how alike they are turned: 0 all ways, 1 one way */
     double network; /* of what is between them that hangs together; 1: all */
 } otx_features;
 

@@ -94,6 +94,12 @@ make_guide(otx_lapped *l)
         l->guide = *request->guide;
         return OSDTEX_OK;
     }
+    /* Features stand upright along the field. */
+    if (l->settings.mode == OTX_LAPPED_ORDERED)
+    {
+        a.symmetry = 1;
+        a.angle = 0.25 * TAU;
+    }
     if (a.kind == OTX_ANALYSIS_ISOTROPIC &&
         l->settings.mode != OTX_LAPPED_ORDERED)
         return OSDTEX_OK;

@@ -54,6 +54,9 @@ typedef struct otx_lapped_chart
                        * 1 away from it */
 } otx_lapped_chart;
 
+/* Below all features. */
+static const double OTX_LAPPED_BENEATH = -1e30;
+
 /* Something that a paste shows. */
 typedef struct otx_lapped_piece
 {

@@ -40,12 +40,12 @@ typedef struct pass
 static const pass SPLOTCHES[] = {
     {1.3, 1, 0}, {0.8, 1, 0}, {0, 1, 0}, {-1, 0, 0}};
 static const pass CLUMPS[] = {{0.8, 1, 1}, {0, 1, 2}, {-1, 0, 0}};
+/* What an alpha cuts out has nothing else beside it. */
+static const pass CUT_OUT[] = {{0.8, 1, 1}, {0, 1, 40}, {-1, 0, 0}};
 static const pass PACKING[] = {
     {0.8, 1, 1}, {0, 1, 1}, {0, 0.65, 1}, {-1, 0, 0}};
 /* Of its samples, what is open where a feature may begin. */
 static const double ROOM = 0.3;
-/* Below all features. */
-static const double BENEATH = -1e30;
 /* From middle to middle of the pieces of a round, in radii. */
 static const double APART = 2.6;
 
@@ -245,7 +245,8 @@ is_apart(const pasting *p)
 static bool
 has_room(const otx_lapped *l, int32_t face)
 {
-    return l->samples.open[face] > ROOM * otx_samples_count(&l->samples, face);
+    return l->features.by_alpha ||
+           l->samples.open[face] > ROOM * otx_samples_count(&l->samples, face);
 }
 
 /* Chooses the pieces of a round from the faces after the first `begin`; moves
@@ -321,7 +322,7 @@ lay_splotch(const pasting *p, const otx_lapped_room *room, slot *s)
     const otx_lapped *l = p->l;
 
     s->cut = s->outline;
-    s->piece = (otx_lapped_piece){{0, 0}, &s->cut, BENEATH};
+    s->piece = (otx_lapped_piece){{0, 0}, &s->cut, OTX_LAPPED_BENEATH};
     s->paste.size = 1.0;
     s->paste.pieces = &s->piece;
     s->paste.piece_count = 1;
@@ -603,8 +604,11 @@ otx_lapped_paste_all(otx_lapped *l)
 
         p->spacing = otx_lapped_whole_spacing(l);
         OTX_TRY(run_passes(
-            p, l->settings.mode == OTX_LAPPED_PACKING ? PACKING : CLUMPS, reach,
-            reach));
+            p,
+            l->features.by_alpha                     ? CUT_OUT
+            : l->settings.mode == OTX_LAPPED_PACKING ? PACKING
+                                                     : CLUMPS,
+            reach, reach));
     }
     return run_passes(p, SPLOTCHES, 0.0, l->settings.radius);
 }

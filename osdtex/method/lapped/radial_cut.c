@@ -258,6 +258,19 @@ otx_lapped_cut(
     return OSDTEX_OK;
 }
 
+/* Whether an alpha leaves something at a place of a paste of features. */
+static bool
+is_opaque(const otx_lapped *l, const otx_lapped_paste *paste, otx_vec2 at)
+{
+    const otx_features *f = &l->features;
+
+    return !f->by_alpha || paste->pieces[0].height <= OTX_LAPPED_BENEATH ||
+           otx_features_at(
+               f, otx_vec2_scale(
+                      (double)f->width / l->exemplar->match.width,
+                      otx_vec2_add(paste->centre, at))) > 0;
+}
+
 int64_t
 otx_lapped_mark(
     const otx_lapped *l, const otx_lapped_paste *paste, otx_samples *samples)
@@ -275,7 +288,7 @@ otx_lapped_mark(
                 const otx_vec2 at = otx_lapped_place(&facet, s);
                 const double alpha = otx_lapped_alpha(paste, at);
 
-                if (alpha >= OTX_LAPPED_COVERED)
+                if (alpha >= OTX_LAPPED_COVERED && is_opaque(l, paste, at))
                     fresh +=
                         otx_samples_set(samples, c->faces[i], facet.first + s);
                 if (alpha >= SHOWN)

@@ -21,6 +21,8 @@ enum
 };
 
 static const double TAU = 6.283185307179586;
+/* Features whose axes lie as much alike lie in one direction. */
+static const double ALIGNED = 0.7;
 static const double CELL = 4.0; /* side, texels */
 /* Of a feature that is kept, what lies in the chart at the least. */
 static const double INSIDE = 0.95;
@@ -87,7 +89,7 @@ fitting_mode(const otx_features *f, otx_analysis_class kind, const char **why)
         *why = "it shows nothing that is parted from its surroundings";
         return OTX_LAPPED_SPLOTCH;
     }
-    if (kind == OTX_ANALYSIS_LATTICE)
+    if (kind == OTX_ANALYSIS_LATTICE && !f->by_alpha)
     {
         *why = "its features lie on a lattice, which other methods keep";
         return OTX_LAPPED_SPLOTCH;
@@ -97,7 +99,7 @@ fitting_mode(const otx_features *f, otx_analysis_class kind, const char **why)
         *why = "its features are so small that nobody misses a part of one";
         return OTX_LAPPED_SPLOTCH;
     }
-    if (f->by_alpha && kind == OTX_ANALYSIS_ISOTROPIC)
+    if (f->by_alpha && f->aligned < ALIGNED)
     {
         *why = "its alpha cuts out things that lie in all directions";
         return OTX_LAPPED_CLUMPS;
