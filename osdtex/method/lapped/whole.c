@@ -366,13 +366,15 @@ count_cells(search *s, const candidate *c, int32_t reach)
         }
 }
 
-/* How much of a feature may lie on others. */
+/* How much of a feature may lie on others. Cut-outs have to cover all. */
 static double
 overlap_most(const otx_lapped *l)
 {
-    return l->settings.mode == OTX_LAPPED_PACKING   ? 0.03
-           : l->settings.mode == OTX_LAPPED_ORDERED ? 0.6
-                                                    : 1.0;
+    if (l->settings.mode == OTX_LAPPED_PACKING)
+        return 0.03;
+    return l->settings.mode == OTX_LAPPED_ORDERED && !l->features.by_alpha
+               ? 0.6
+               : 1.0;
 }
 
 static bool
