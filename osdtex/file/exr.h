@@ -1,9 +1,9 @@
 /* exr.h -- OpenEXR files through OpenEXR's C core.
  *
- * Reading is by picture.h. Writing gives one part with the channels R, G, B
- * (and A) or Y, ZIP compressed. A *texture* is tiled 64 x 64 and mip-mapped
- * with sizes rounded down; a *render* is scanlines. The same input gives the
- * same bytes: no dates, no host, chunks in order. */
+ * Reading is by picture.h. Writing gives one part, or several, with the
+ * channels R, G, B (and A) or Y, ZIP compressed. A *texture* is tiled 64 x 64
+ * and mip-mapped with sizes rounded down; a *render* is scanlines. The same
+ * input gives the same bytes: no dates, no host, chunks in order. */
 #ifndef OTX_FILE_EXR_H
 #define OTX_FILE_EXR_H
 
@@ -67,6 +67,19 @@ otx_status otx_exr_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const otx_image *image, const otx_exr_options *options);
 
+/* One of several pictures in a file. */
+typedef struct otx_exr_page
+{
+    const char *name;
+    const otx_image *image;
+    otx_exr_options options;
+} otx_exr_page;
+
+/* Writes `count` pictures as the parts of one file, in their order. */
+otx_status otx_exr_write_pages(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_exr_page *pages, int32_t count);
+
 /* The same in pieces, for pictures that are never in memory as a whole. */
 typedef struct otx_exr_writer otx_exr_writer;
 
@@ -89,6 +102,21 @@ otx_status otx_exr_begin(
 otx_status otx_exr_open(
     otx_run *run, const char *path, const char *temporary, otx_exr_size size,
     const otx_exr_options *options, otx_exr_writer **out);
+
+/* A part of a file of several. */
+typedef struct otx_exr_part
+{
+    const char *name; /* of its own; NULL: the only part */
+    otx_exr_size size;
+    const otx_exr_options *options;
+} otx_exr_part;
+
+/* otx_exr_open of a file of `count` parts. The chunks of the first one are put,
+ * then otx_exr_next turns to the next. */
+otx_status otx_exr_open_parts(
+    otx_run *run, const char *path, const char *temporary,
+    const otx_exr_part *parts, int32_t count, otx_exr_writer **out);
+otx_status otx_exr_next(otx_exr_writer *writer, const otx_exr_part *part);
 
 /* Packs a chunk, which every thread of run->pool can do for other chunks at the
  * same time.

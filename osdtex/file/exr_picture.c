@@ -106,7 +106,7 @@ put_levels(
         OTX_TRY(put_level(run, writer, level, &next, true));
         above = next;
     }
-    return otx_exr_end(writer);
+    return OSDTEX_OK;
 }
 
 static otx_status
@@ -135,25 +135,61 @@ check_levels(
     return OSDTEX_OK;
 }
 
-otx_status
-otx_exr_write(
-    otx_run *run, otx_atomic_file_set *set, const char *path,
-    const otx_image *image, const otx_exr_options *options)
+/* Headers, then the chunks of one page after the other. */
+static otx_status
+put_pages(
+    otx_run *run, const char *path, const char *temporary,
+    const otx_exr_page *pages, int32_t count)
 {
-    const otx_exr_size size = {image->width, image->height, image->channels};
-    const char *temporary;
+    otx_exr_part *parts = OTX_NEW(run->scratch, otx_exr_part, count);
     otx_exr_writer *writer;
+
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t i = 0; i < count; ++i)
+    {
+        const otx_image *image = pages[i].image;
+
+        parts[i] = (otx_exr_part){
+            pages[i].name,
+            {image->width, image->height, image->channels},
+            &pages[i].options};
+    }
+    OTX_TRY(otx_exr_open_parts(run, path, temporary, parts, count, &writer));
+    for (int32_t i = 0; i < count; ++i)
+    {
+        if (i > 0)
+            OTX_TRY(otx_exr_next(writer, &parts[i]));
+        OTX_TRY(put_levels(run, writer, pages[i].image, &pages[i].options));
+    }
+    return otx_exr_end(writer);
+}
+
+otx_status
+otx_exr_write_pages(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_exr_page *pages, int32_t count)
+{
+    const char *temporary;
     otx_status status;
 
-    OTX_TRY(check_levels(run, path, image, options));
+    for (int32_t i = 0; i < count; ++i)
+        OTX_TRY(check_levels(run, path, pages[i].image, &pages[i].options));
     /* Before the mark: the set may live in the scratch arena too. */
     OTX_TRY(otx_atomic_file_add(run, set, path, &temporary));
 
     const otx_arena_mark mark = otx_arena_here(run->scratch);
 
-    status = otx_exr_open(run, path, temporary, size, options, &writer);
-    if (status == OSDTEX_OK)
-        status = put_levels(run, writer, image, options);
+    status = put_pages(run, path, temporary, pages, count);
     otx_arena_release(run->scratch, mark);
     return status;
+}
+
+otx_status
+otx_exr_write(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_image *image, const otx_exr_options *options)
+{
+    const otx_exr_page page = {NULL, image, *options};
+
+    return otx_exr_write_pages(run, set, path, &page, 1);
 }

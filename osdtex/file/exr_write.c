@@ -26,6 +26,7 @@ struct otx_exr_writer
     otx_run *run;
     const char *path;
     exr_context_t file;
+    int part; /* of the file, which header or chunks go to */
     otx_exr_size size;
     bool tiled;
     bool full_float;
@@ -104,27 +105,27 @@ pixel_type(const otx_exr_writer *w)
 }
 
 static exr_result_t
-write_layout(otx_exr_writer *w)
+write_layout(otx_exr_writer *w, const char *name)
 {
     static const char *const names[4] = {"A", "B", "G", "R"};
     const bool is_gray = w->size.channels == 1;
     exr_result_t code;
-    int part;
 
     code = exr_add_part(
-        w->file, NULL, w->tiled ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE,
-        &part);
+        w->file, name, w->tiled ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE,
+        &w->part);
     if (code == EXR_ERR_SUCCESS)
         code = exr_initialize_required_attr_simple(
-            w->file, part, w->size.width, w->size.height, EXR_COMPRESSION_ZIP);
+            w->file, w->part, w->size.width, w->size.height,
+            EXR_COMPRESSION_ZIP);
     if (code == EXR_ERR_SUCCESS && w->tiled)
         code = exr_set_tile_descriptor(
-            w->file, part, OTX_EXR_TILE, OTX_EXR_TILE, EXR_TILE_MIPMAP_LEVELS,
-            EXR_TILE_ROUND_DOWN);
+            w->file, w->part, OTX_EXR_TILE, OTX_EXR_TILE,
+            EXR_TILE_MIPMAP_LEVELS, EXR_TILE_ROUND_DOWN);
     for (int32_t i = 4 - w->size.channels; i < 4; ++i)
         if (code == EXR_ERR_SUCCESS)
             code = exr_add_channel(
-                w->file, part, is_gray ? "Y" : names[i], pixel_type(w),
+                w->file, w->part, is_gray ? "Y" : names[i], pixel_type(w),
                 EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     return code;
 }
@@ -132,7 +133,8 @@ write_layout(otx_exr_writer *w)
 static exr_result_t
 write_text(otx_exr_writer *w, const char *name, const char *text)
 {
-    return text ? exr_attr_set_string(w->file, 0, name, text) : EXR_ERR_SUCCESS;
+    return text ? exr_attr_set_string(w->file, w->part, name, text)
+                : EXR_ERR_SUCCESS;
 }
 
 static exr_result_t
@@ -152,7 +154,7 @@ write_color(otx_exr_writer *w, const otx_exr_options *options)
 
     if (options->has_chromaticities)
         code = exr_attr_set_chromaticities(
-            w->file, 0, "chromaticities", &chromaticities);
+            w->file, w->part, "chromaticities", &chromaticities);
     if (code == EXR_ERR_SUCCESS)
         code = write_text(w, "oiio:ColorSpace", options->color_space);
     if (code == EXR_ERR_SUCCESS)
@@ -184,9 +186,9 @@ write_attribute(otx_exr_writer *w, const otx_exr_attribute *a)
     case OTX_EXR_TEXT:
         return write_text(w, a->name, a->text ? a->text : "");
     case OTX_EXR_INTEGER:
-        return exr_attr_set_int(w->file, 0, a->name, a->integer);
+        return exr_attr_set_int(w->file, w->part, a->name, a->integer);
     default:
-        return exr_attr_set_float(w->file, 0, a->name, a->real);
+        return exr_attr_set_float(w->file, w->part, a->name, a->real);
     }
 }
 
@@ -237,13 +239,32 @@ has_long_name(const otx_exr_options *options)
     return false;
 }
 
-static otx_status
-write_header(otx_exr_writer *w, const otx_exr_options *options)
+static void
+turn_to(otx_exr_writer *w, const otx_exr_part *part)
 {
-    if (has_long_name(options))
+    w->size = part->size;
+    w->tiled = part->options->tiled;
+    w->full_float = part->options->full_float;
+    w->level_count =
+        w->tiled ? otx_pyramid_count(w->size.width, w->size.height) : 1;
+    w->level = w->x = w->y = 0;
+}
+
+static otx_status
+write_header(otx_exr_writer *w, const otx_exr_part *parts, int32_t count)
+{
+    bool long_names = false;
+
+    for (int32_t i = 0; i < count; ++i)
+        long_names = long_names || has_long_name(parts[i].options);
+    if (long_names)
         OTX_TRY(check(w, exr_set_longname_support(w->file, 1)));
-    OTX_TRY(check(w, write_layout(w)));
-    OTX_TRY(write_attributes(w, options));
+    for (int32_t i = 0; i < count; ++i)
+    {
+        turn_to(w, &parts[i]);
+        OTX_TRY(check(w, write_layout(w, parts[i].name)));
+        OTX_TRY(write_attributes(w, parts[i].options));
+    }
     return check(w, exr_write_header(w->file));
 }
 
@@ -342,12 +363,12 @@ otx_exr_put(
             level);
     OTX_TRY(check_chunk(w, chunk));
     OTX_TRY(check(
-        w, w->tiled
-               ? exr_write_tile_chunk(
-                     w->file, 0, x, y, level, level, chunk->bytes, chunk->size)
-               : exr_write_scanline_chunk(
-                     w->file, 0, place_of(w, level, x, y).y, chunk->bytes,
-                     chunk->size)));
+        w, w->tiled ? exr_write_tile_chunk(
+                          w->file, w->part, x, y, level, level, chunk->bytes,
+                          chunk->size)
+                    : exr_write_scanline_chunk(
+                          w->file, w->part, place_of(w, level, x, y).y,
+                          chunk->bytes, chunk->size)));
     w->clamped_count += chunk->clamped_count;
     advance(w);
     return OSDTEX_OK;
@@ -369,21 +390,70 @@ check_size(otx_run *run, const char *path, otx_exr_size size)
     return OSDTEX_OK;
 }
 
+/* Room for a chunk of any part. */
 static otx_status
-make_packers(otx_run *run, otx_exr_writer *w)
+make_packers(
+    otx_run *run, otx_exr_writer *w, const otx_exr_part *parts, int32_t count)
 {
-    const size_t bytes = otx_exr_packed_bytes(w);
-    const int32_t count = otx_pool_threads(run->pool);
+    const int32_t threads = otx_pool_threads(run->pool);
+    size_t bytes = 0;
 
-    w->packers = OTX_ZNEW(run->scratch, otx_exr_packer, count);
-    OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < count; ++i)
+    {
+        otx_exr_writer part = *w;
+        size_t here;
+
+        turn_to(&part, &parts[i]);
+        here = otx_exr_packed_bytes(&part);
+        bytes = here > bytes ? here : bytes;
+    }
+    w->packers = OTX_ZNEW(run->scratch, otx_exr_packer, threads);
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t i = 0; i < threads; ++i)
     {
         w->packers[i].rows = OTX_NEW(run->scratch, uint8_t, bytes);
         w->packers[i].split = OTX_NEW(run->scratch, uint8_t, bytes);
         OTX_TRY(otx_run_ok(run));
     }
-    w->packer_count = count;
+    w->packer_count = threads;
+    return OSDTEX_OK;
+}
+
+static otx_status
+check_whole(const otx_exr_writer *w)
+{
+    if (w->level != w->level_count)
+        return otx_fail(
+            w->run, OSDTEX_ERROR_ARGUMENT, "picture", otx_where_file(w->path),
+            "the EXR is ended before its last chunk, at level %d of %d",
+            w->level, w->level_count);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_exr_open_parts(
+    otx_run *run, const char *path, const char *temporary,
+    const otx_exr_part *parts, int32_t count, otx_exr_writer **out)
+{
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    otx_exr_writer *w = OTX_ZNEW(run->scratch, otx_exr_writer, 1);
+
+    *out = NULL;
+    for (int32_t i = 0; i < count; ++i)
+        OTX_TRY(check_size(run, path, parts[i].size));
+    if (!w || !otx_arena_defer(run->scratch, writer_close, w))
+        return otx_fail_memory(run, "picture");
+    w->run = run;
+    w->path = path;
+    setup.error_handler_fn = on_error;
+    OTX_TRY(check(
+        w,
+        exr_start_write(&w->file, temporary, EXR_WRITE_FILE_DIRECTLY, &setup)));
+    OTX_TRY(write_header(w, parts, count));
+    w->part = 0;
+    turn_to(w, &parts[0]);
+    OTX_TRY(make_packers(run, w, parts, count));
+    *out = w;
     return OSDTEX_OK;
 }
 
@@ -392,26 +462,17 @@ otx_exr_open(
     otx_run *run, const char *path, const char *temporary, otx_exr_size size,
     const otx_exr_options *options, otx_exr_writer **out)
 {
-    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    otx_exr_writer *w = OTX_ZNEW(run->scratch, otx_exr_writer, 1);
+    const otx_exr_part part = {NULL, size, options};
 
-    *out = NULL;
-    OTX_TRY(check_size(run, path, size));
-    if (!w || !otx_arena_defer(run->scratch, writer_close, w))
-        return otx_fail_memory(run, "picture");
-    w->run = run;
-    w->path = path;
-    w->size = size;
-    w->tiled = options->tiled;
-    w->full_float = options->full_float;
-    w->level_count = w->tiled ? otx_pyramid_count(size.width, size.height) : 1;
-    OTX_TRY(make_packers(run, w));
-    setup.error_handler_fn = on_error;
-    OTX_TRY(check(
-        w,
-        exr_start_write(&w->file, temporary, EXR_WRITE_FILE_DIRECTLY, &setup)));
-    OTX_TRY(write_header(w, options));
-    *out = w;
+    return otx_exr_open_parts(run, path, temporary, &part, 1, out);
+}
+
+otx_status
+otx_exr_next(otx_exr_writer *w, const otx_exr_part *part)
+{
+    OTX_TRY(check_whole(w));
+    ++w->part;
+    turn_to(w, part);
     return OSDTEX_OK;
 }
 
@@ -432,11 +493,7 @@ otx_exr_end(otx_exr_writer *w)
 {
     exr_result_t code;
 
-    if (w->level != w->level_count)
-        return otx_fail(
-            w->run, OSDTEX_ERROR_ARGUMENT, "picture", otx_where_file(w->path),
-            "the EXR is ended before its last chunk, at level %d of %d",
-            w->level, w->level_count);
+    OTX_TRY(check_whole(w));
     code = exr_finish(&w->file);
     w->file = NULL;
     if (w->clamped_count > 0)
