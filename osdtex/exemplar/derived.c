@@ -129,12 +129,13 @@ resize(
     otx_texture texture;
     resizing r = {&texture, out};
 
-    *out = (otx_image){width, height, 3, NULL};
+    *out = (otx_image){width, height, from->channels, NULL};
     if (!from->pixels)
         return OSDTEX_OK;
     OTX_TRY(otx_texture_create(
         run, run->scratch, from, e->wrap_x, e->wrap_y, &texture));
-    OTX_TRY(otx_image_create(run, run->arena, width, height, 3, out));
+    OTX_TRY(
+        otx_image_create(run, run->arena, width, height, from->channels, out));
     return otx_pool_for(run->pool, height, resize_row, &r);
 }
 
@@ -156,6 +157,24 @@ otx_exemplar_resize(
     OTX_TRY(resize(run, from, &from->match, width, height, &made.match));
     OTX_TRY(resize(run, from, &from->lab, width, height, &made.lab));
     OTX_TRY(otx_exemplar_measure(run, &made));
+    *out = made;
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_exemplar_rescale(
+    otx_run *run, const otx_exemplar *from, int32_t width, int32_t height,
+    otx_exemplar *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    otx_exemplar made;
+
+    OTX_TRY(otx_exemplar_resize(run, from, width, height, &made));
+    OTX_TRY(resize(run, from, &from->linear, width, height, &made.linear));
+    OTX_TRY(resize(
+        run, from, &from->companions.image, width, height,
+        &made.companions.image));
     *out = made;
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;

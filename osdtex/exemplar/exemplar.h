@@ -94,6 +94,12 @@ otx_status otx_exemplar_resize(
     otx_run *run, const otx_exemplar *from, int32_t width, int32_t height,
     otx_exemplar *out);
 
+/* The same with all its pictures made anew, in run->arena: `linear` and the
+ * maps of its set, too. LIMIT, MEMORY. */
+otx_status otx_exemplar_rescale(
+    otx_run *run, const otx_exemplar *from, int32_t width, int32_t height,
+    otx_exemplar *out);
+
 /* The rectangle of width x height at (x, y) of `from`, in run->arena. Along
  * axes that are cut off it is tested whether it tiles. */
 otx_status otx_exemplar_crop(

@@ -66,9 +66,10 @@ typedef struct otx_synth_chart
     /* [texels * 4] what the second four channels have to be, in the units of
      * the pattern's guide; NULL: they are made like the others. */
     const float *guide;
-    /* What the made texture is drawn to: [texels * 4] features of another one,
-     * and [texels] the share it has in each vote, 0 to 1. At every level a
-     * texel is drawn by the least share in its window. NULL: to nothing. */
+    /* What the made texture is drawn to: [texels * 4 * pattern->quads] features
+     * of another one, and [texels] the share it has in each vote, 0 to 1. At
+     * every level a texel is drawn by the least share in its window. NULL: to
+     * nothing. */
     const float *anchor;
     const float *anchor_share;
     const otx_synth_match *hints; /* [texels] tried once a level; NULL none */

@@ -1,0 +1,285 @@
+/* feature_mask.c -- thresholds, and what hangs together. */
+#include "stack/feature_mask.h"
+
+#include "base/union_find.h"
+
+#include <math.h>
+#include <string.h>
+
+enum
+{
+    BINS = 256,
+    TAPS_MAX = 31
+};
+
+#define SPOT_BLUR 1.5 /* texels; so that grain does not count */
+
+/* Half the side of the square that joints are narrower than, for pictures of
+ * 256 texels. */
+#define HAT_RADIUS 6.0
+
+/* ---- plain filters on a torus -------------------------------------------- */
+
+typedef struct plane
+{
+    int32_t width, height;
+    float *values; /* [height * width] */
+    float *other;  /* likewise, for sweeps */
+} plane;
+
+static void
+blur_axis(
+    const plane *p, const float *from, float *to, bool along_x,
+    const double *taps, int32_t radius)
+{
+    for (int32_t y = 0; y < p->height; ++y)
+        for (int32_t x = 0; x < p->width; ++x)
+        {
+            double sum = 0.0;
+
+            for (int32_t k = -radius; k <= radius; ++k)
+            {
+                const int32_t i = along_x ? otx_image_wrap(x + k, p->width) : x;
+                const int32_t j =
+                    along_x ? y : otx_image_wrap(y + k, p->height);
+
+                sum += taps[k + radius] *
+                       (double)from[(ptrdiff_t)j * p->width + i];
+            }
+            to[(ptrdiff_t)y * p->width + x] = (float)sum;
+        }
+}
+
+static void
+blur(plane *p, double sigma)
+{
+    double taps[2 * TAPS_MAX + 1], sum = 0.0;
+    int32_t radius = (int32_t)ceil(3.0 * sigma);
+
+    radius = radius > TAPS_MAX ? TAPS_MAX : radius;
+    for (int32_t k = -radius; k <= radius; ++k)
+        sum += taps[k + radius] = exp(-0.5 * k * k / (sigma * sigma));
+    for (int32_t k = 0; k <= 2 * radius; ++k)
+        taps[k] /= sum;
+    blur_axis(p, p->values, p->other, true, taps, radius);
+    blur_axis(p, p->other, p->values, false, taps, radius);
+}
+
+/* The largest of `sign` times the values within `radius` along an axis. */
+static void
+grow_axis(
+    const plane *p, const float *from, float *to, bool along_x, float sign,
+    int32_t radius)
+{
+    for (int32_t y = 0; y < p->height; ++y)
+        for (int32_t x = 0; x < p->width; ++x)
+        {
+            float most = -(float)INFINITY;
+
+            for (int32_t k = -radius; k <= radius; ++k)
+            {
+                const int32_t i = along_x ? otx_image_wrap(x + k, p->width) : x;
+                const int32_t j =
+                    along_x ? y : otx_image_wrap(y + k, p->height);
+
+                most = fmaxf(most, sign * from[(ptrdiff_t)j * p->width + i]);
+            }
+            to[(ptrdiff_t)y * p->width + x] = sign * most;
+        }
+}
+
+/* Closing: what is darker than its surroundings and narrow is filled up. */
+static void
+close_narrow(plane *p, int32_t radius)
+{
+    for (int pass = 0; pass < 2; ++pass)
+    {
+        const float sign = pass == 0 ? 1.0f : -1.0f;
+
+        grow_axis(p, p->values, p->other, true, sign, radius);
+        grow_axis(p, p->other, p->values, false, sign, radius);
+    }
+}
+
+/* ---- thresholds ---------------------------------------------------------- */
+
+/* The threshold that parts values best in two, and how well [Otsu79]. */
+static double
+part(const float *values, int64_t count, double *clarity)
+{
+    double low = (double)INFINITY, high = -(double)INFINITY;
+    double histogram[BINS] = {0.0};
+    double all = 0.0, squares = 0.0, below = 0.0, mass = 0.0, best = -1.0;
+    int32_t cut = 0;
+
+    *clarity = 0.0;
+    for (int64_t i = 0; i < count; ++i)
+    {
+        low = fmin(low, (double)values[i]);
+        high = fmax(high, (double)values[i]);
+    }
+    if (!(high > low))
+        return low;
+    for (int64_t i = 0; i < count; ++i)
+    {
+        const int32_t b =
+            (int32_t)((BINS - 1) * ((double)values[i] - low) / (high - low));
+
+        histogram[b] += 1.0 / (double)count;
+    }
+    for (int32_t b = 0; b < BINS; ++b)
+    {
+        all += b * histogram[b];
+        squares += (double)b * b * histogram[b];
+    }
+    for (int32_t b = 0; b < BINS - 1; ++b)
+    {
+        mass += histogram[b];
+        below += b * histogram[b];
+        if (mass > 0.0 && mass < 1.0)
+        {
+            const double apart = all * mass - below;
+            const double between = apart * apart / (mass * (1.0 - mass));
+
+            if (between > best)
+            {
+                best = between;
+                cut = b;
+            }
+        }
+    }
+    if (squares > all * all)
+        *clarity = fmax(best, 0.0) / (squares - all * all);
+    return low + (high - low) * (cut + 1) / (BINS - 1);
+}
+
+/* ---- finding ------------------------------------------------------------- */
+
+static void
+lightness(const otx_image *lab, plane *p)
+{
+    const int64_t texels = (int64_t)lab->width * lab->height;
+
+    for (int64_t i = 0; i < texels; ++i)
+        p->values[i] = lab->pixels[i * lab->channels];
+}
+
+static int32_t
+hat_radius(const otx_image *lab)
+{
+    const int32_t side = lab->width < lab->height ? lab->width : lab->height;
+    const double radius = HAT_RADIUS * side / 256.0;
+
+    return radius > 2.0 ? (int32_t)lround(radius) : 2;
+}
+
+double
+otx_feature_mask_share(const uint8_t *mask, int64_t texels)
+{
+    int64_t in = 0;
+
+    for (int64_t i = 0; i < texels; ++i)
+        in += mask[i] != 0;
+    return (double)in / (double)texels;
+}
+
+otx_status
+otx_feature_mask_find(
+    otx_run *run, const otx_image *lab, otx_feature feature,
+    otx_feature_mask *out)
+{
+    const int64_t texels = (int64_t)lab->width * lab->height;
+    const bool joints = feature == OTX_FEATURE_JOINTS;
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    plane p = {
+        lab->width, lab->height, OTX_NEW(run->scratch, float, texels),
+        OTX_NEW(run->scratch, float, texels)};
+    double threshold;
+
+    *out = (otx_feature_mask){.texels = OTX_NEW(run->arena, uint8_t, texels)};
+    OTX_TRY(otx_run_ok(run));
+    lightness(lab, &p);
+    blur(&p, joints ? 0.5 * SPOT_BLUR : SPOT_BLUR);
+    if (joints)
+    {
+        float *light = OTX_NEW(run->scratch, float, texels);
+
+        OTX_TRY(otx_run_ok(run));
+        memcpy(light, p.values, (size_t)texels * sizeof *light);
+        close_narrow(&p, hat_radius(lab));
+        for (int64_t i = 0; i < texels; ++i)
+            p.values[i] = light[i] - p.values[i]; /* dark is below, as spots */
+    }
+    threshold = part(p.values, texels, &out->clarity);
+    for (int64_t i = 0; i < texels; ++i)
+        out->texels[i] = out->clarity > 0.0 && (double)p.values[i] < threshold;
+    otx_arena_release(run->scratch, mark);
+    out->share = otx_feature_mask_share(out->texels, texels);
+    return OSDTEX_OK;
+}
+
+/* ---- what hangs together --------------------------------------------------
+ */
+
+/* Sizes of the pieces of both kinds, at their first texels. */
+static otx_status
+find_pieces(
+    otx_run *run, const uint8_t *mask, int32_t width, int32_t height,
+    int32_t **parent, int32_t **size)
+{
+    const int32_t texels = width * height;
+    int32_t *p = OTX_NEW(run->scratch, int32_t, texels);
+    int32_t *s = OTX_ZNEW(run->scratch, int32_t, texels);
+
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t i = 0; i < texels; ++i)
+        p[i] = i;
+    for (int32_t y = 0; y < height; ++y)
+        for (int32_t x = 0; x < width; ++x)
+        {
+            const int32_t i = y * width + x;
+            const int32_t right = y * width + (x + 1) % width;
+            const int32_t above = (y + 1) % height * width + x;
+
+            if (!mask[i] == !mask[right])
+                otx_union_find_join(p, i, right);
+            if (!mask[i] == !mask[above])
+                otx_union_find_join(p, i, above);
+        }
+    for (int32_t i = 0; i < texels; ++i)
+        ++s[otx_union_find_root(p, i)];
+    *parent = p;
+    *size = s;
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_feature_mask_clean(
+    otx_run *run, uint8_t *mask, int32_t width, int32_t height, int32_t least)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    int32_t *parent, *size;
+
+    OTX_TRY(find_pieces(run, mask, width, height, &parent, &size));
+    for (int32_t i = 0; i < width * height; ++i)
+        if (size[otx_union_find_root(parent, i)] < least)
+            mask[i] = !mask[i];
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_feature_mask_crumbs(
+    otx_run *run, const uint8_t *mask, int32_t width, int32_t height,
+    int32_t below, int32_t *count)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    int32_t *parent, *size;
+
+    OTX_TRY(find_pieces(run, mask, width, height, &parent, &size));
+    *count = 0;
+    for (int32_t i = 0; i < width * height; ++i)
+        *count += parent[i] == i && size[i] < below;
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}

@@ -1,0 +1,191 @@
+/* slices.c -- from slice to slice. */
+#include "stack/slices.h"
+
+#include "synth/synth.h"
+
+#include <math.h>
+#include <string.h>
+
+enum
+{
+    COARSEST = 32, /* texels of a side */
+    FEATURES = 8   /* of a texel: Lab, edges, the mask */
+};
+
+static const char STAGE[] = "stack";
+
+typedef struct work
+{
+    otx_run *run;
+    const otx_slices_input *input;
+    int32_t width, height;
+    int64_t texels;
+    double unit; /* of the mask's channel */
+    otx_pattern pattern;
+    float *guide;  /* [texels * 4] */
+    float *anchor; /* [texels * FEATURES] */
+    float *share;
+    otx_synth_match *hints, *matches;
+} work;
+
+static double
+deviation(const otx_image *lab)
+{
+    const int64_t texels = (int64_t)lab->width * lab->height;
+    double variance = 0.0;
+
+    for (int32_t c = 0; c < 3; ++c)
+    {
+        double sum = 0.0, squares = 0.0;
+
+        for (int64_t i = 0; i < texels; ++i)
+        {
+            const double v = (double)lab->pixels[i * lab->channels + c];
+
+            sum += v;
+            squares += v * v;
+        }
+        sum /= (double)texels;
+        variance += squares / (double)texels - sum * sum;
+    }
+    return sqrt(fmax(variance, 0.0));
+}
+
+static int32_t
+level_count(const work *w)
+{
+    const int32_t side = w->width < w->height ? w->width : w->height;
+    int32_t levels = 1;
+
+    while (levels < OTX_PATTERN_LEVELS && side >> levels >= COARSEST)
+        ++levels;
+    return levels;
+}
+
+static otx_status
+build_pattern(work *w)
+{
+    const uint8_t *mask = w->input->masks[0];
+    otx_image guide;
+
+    OTX_TRY(otx_image_create(
+        w->run, w->run->scratch, w->width, w->height, 1, &guide));
+    for (int64_t i = 0; i < w->texels; ++i)
+        guide.pixels[i] = mask[i] ? (float)w->unit : 0.0f;
+    return otx_pattern_build(
+        w->run, w->run->scratch,
+        &(otx_pattern_input){
+            .lab = w->input->lab,
+            .guide = &guide,
+            .wrap_x = true,
+            .wrap_y = true,
+            .levels = level_count(w)},
+        &w->pattern);
+}
+
+static otx_synth_match
+middle_of(const work *w, int32_t texel)
+{
+    return (otx_synth_match){
+        (float)(texel % w->width) + 0.5f, (float)(texel / w->width) + 0.5f,
+        1.0f, 0.0f};
+}
+
+static int32_t
+texel_at(const work *w, otx_synth_match m)
+{
+    const int32_t x = otx_image_wrap((int32_t)floorf(m.x), w->width);
+    const int32_t y = otx_image_wrap((int32_t)floorf(m.y), w->height);
+
+    return y * w->width + x;
+}
+
+/* Features of the slice before, where the mask stays as it was. */
+static void
+draw_to(work *w, const int32_t *before, const uint8_t *was, const uint8_t *is)
+{
+    const otx_pattern_level *fine = &w->pattern.levels[0];
+
+    for (int64_t i = 0; i < w->texels; ++i)
+    {
+        const int32_t x = before[i] % w->width, y = before[i] / w->width;
+        const otx_quad *value =
+            fine->values + ((ptrdiff_t)(y + OTX_PATTERN_RIM) * fine->stride +
+                            x + OTX_PATTERN_RIM) *
+                               w->pattern.quads;
+
+        memcpy(w->anchor + FEATURES * i, value, 2 * sizeof *value);
+        w->share[i] = was[i] == is[i] ? (float)w->input->anchor : 0.0f;
+        w->guide[4 * i] = is[i] ? (float)w->unit : 0.0f;
+        w->hints[i] = w->matches[i] = middle_of(w, before[i]);
+    }
+}
+
+static otx_status
+make_slice(work *w, int32_t m, const int32_t *before, int32_t *out)
+{
+    const otx_synth_chart chart = {
+        .width = w->width,
+        .height = w->height,
+        .wrap_x = true,
+        .wrap_y = true,
+        .guide = w->guide,
+        .anchor = w->anchor,
+        .anchor_share = w->share,
+        .hints = w->hints,
+        .matches = w->matches};
+    otx_synth_options options = otx_synth_mending();
+
+    options.levels = w->pattern.level_count;
+    options.turn = 0.0;
+    options.stage = "slice";
+    options.seed = w->input->seed + (uint64_t)m;
+    draw_to(w, before, w->input->masks[m - 1], w->input->masks[m]);
+    OTX_TRY(otx_synth_run(w->run, &w->pattern, &chart, 1, &options));
+    for (int64_t i = 0; i < w->texels; ++i)
+        out[i] = texel_at(w, w->matches[i]);
+    return OSDTEX_OK;
+}
+
+static otx_status
+set_up(otx_run *run, const otx_slices_input *input, work *w)
+{
+    *w = (work){
+        .run = run,
+        .input = input,
+        .width = input->lab->width,
+        .height = input->lab->height};
+    w->texels = (int64_t)w->width * w->height;
+    w->unit = input->mask_weight * deviation(input->lab);
+    w->guide = OTX_ZNEW(run->scratch, float, 4 * w->texels);
+    w->anchor = OTX_NEW(run->scratch, float, FEATURES * w->texels);
+    w->share = OTX_NEW(run->scratch, float, w->texels);
+    w->hints = OTX_NEW(run->scratch, otx_synth_match, w->texels);
+    w->matches = OTX_NEW(run->scratch, otx_synth_match, w->texels);
+    OTX_TRY(otx_run_ok(run));
+    return build_pattern(w);
+}
+
+otx_status
+otx_slices_make(otx_run *run, const otx_slices_input *input, int32_t **out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    work w;
+
+    OTX_TRY(set_up(run, input, &w));
+    for (int32_t m = 0; m < input->count; ++m)
+    {
+        const otx_arena_mark slice = otx_arena_here(run->scratch);
+
+        out[m] = OTX_NEW(run->arena, int32_t, w.texels);
+        OTX_TRY(otx_run_ok(run));
+        for (int64_t i = 0; m == 0 && i < w.texels; ++i)
+            out[m][i] = (int32_t)i;
+        if (m > 0)
+            OTX_TRY(make_slice(&w, m, out[m - 1], out[m]));
+        otx_arena_release(run->scratch, slice);
+        OTX_TRY(otx_progress(run, STAGE, (double)m / input->count));
+    }
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
