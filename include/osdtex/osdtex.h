@@ -19,8 +19,8 @@
  * and beside it memory, threads and findings (context.h), the refined surface
  * for hosts that look at it (surface.h), directions that a texture follows
  * (field.h), the methods and their settings (method.h), tiled textures
- * (tiles.h), the files of a material (material.h), pixels (image.h) and what
- * files depend on (files.h).
+ * (tiles.h), stacks (stack.h), the files of a material (material.h), pixels
+ * (image.h) and what files depend on (files.h).
  *
  * Every call that can fail returns an osdtex_status; on failure *out is NULL,
  * the inputs are untouched, and the context holds diagnostics addressed to the
@@ -63,6 +63,7 @@
 #include <osdtex/preflight.h>
 #include <osdtex/render.h>
 #include <osdtex/report.h>
+#include <osdtex/stack.h>
 #include <osdtex/surface.h>
 #include <osdtex/textures.h>
 #include <osdtex/tiles.h>

@@ -131,6 +131,15 @@ static const otx_flag_id bake_flags[] = {
     OTX_FLAG_SAVE,
     OTX_FLAG_COUNT};
 
+static const otx_flag_id stack_flags[] = {
+    OTX_FLAG_OUTPUT,  OTX_FLAG_SLICES,       OTX_FLAG_STACK_SIZE,
+    OTX_FLAG_MASKS,   OTX_FLAG_FEATURES,     OTX_FLAG_MORPH,
+    OTX_FLAG_SEED,    OTX_FLAG_FROM,         OTX_FLAG_TO,
+    OTX_FLAG_WRAP,    OTX_FLAG_TILEABLE,     OTX_FLAG_COLORCONFIG,
+    OTX_FLAG_THREADS, OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_REPLACE,
+    OTX_FLAG_DRY_RUN, OTX_FLAG_VERBOSE,      OTX_FLAG_QUIET,
+    OTX_FLAG_HELP,    OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
+
 static const otx_flag_id tiles_flags[] = {
     OTX_FLAG_OUTPUT,
     OTX_FLAG_MATERIAL,
@@ -247,6 +256,17 @@ static const otx_command commands[] = {
      "osdtex tiles wood.exr -o wood_tiles.exr --oriented --for shirt.obj \\\n"
      "    --tile-level 2\n",
      "an .exr", tiles_flags, otx_tiles_command_run, true},
+    {"stack", "EXEMPLAR EXEMPLAR...", 2, 8,
+     "make the pictures between two that tile",
+     "Makes slices in which features of the first picture, spots or "
+     "joints, become those\nof the next: a texture with a third axis. Masks "
+     "are found and written\nbeside the stack, so that they "
+     "can be changed and given instead.",
+     "osdtex stack spots.png stripes.png -o fur.exr\n"
+     "osdtex stack cobbles.png bricks.png -o wall.exr --features joints \\\n"
+     "    --slices 12 --size 512\n",
+     "an .exr; NAME_mask1.png, ... are written beside it", stack_flags,
+     otx_stack_command_run, true},
     {"bake", "CAGE.obj EXEMPLAR", 2, 2,
      "texture a cage and bake the result onto its UVs",
      "Textures the cage as `osdtex map` does, but keeps it as it is: writes\n"

@@ -147,6 +147,26 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "how edges meet insides: cut, or ramp, the cross-fade of the method "
          "as published, for comparison; its tiles jump at vertices (default "
          "cut)"},
+    [OTX_FLAG_SLICES] =
+        {"slices", 0, OTX_FLAG_GROUP_MAIN, "N",
+         "pictures from one to the next, with both, 2 to 64 (default 8)"},
+    [OTX_FLAG_STACK_SIZE] =
+        {"size", 0, OTX_FLAG_GROUP_MAIN, "PX",
+         "texels of the slices' width (default: as the first picture has)"},
+    [OTX_FLAG_MASKS] =
+        {"masks", 0, OTX_FLAG_GROUP_MAIN, "FILE,FILE,...",
+         "pictures that are white where each picture's features are; an empty "
+         "name: they are found (default: all are; they are written to "
+         "NAME_mask1.png, ... to be changed and given here)"},
+    [OTX_FLAG_FEATURES] =
+        {"features", 0, OTX_FLAG_GROUP_MAIN, "auto|spots|joints",
+         "what to look for: spots are darker than the rest, joints are dark "
+         "and narrow (default auto: what parts the pictures more clearly)"},
+    [OTX_FLAG_MORPH] =
+        {"morph", 0, OTX_FLAG_GROUP_MAIN, "auto|advect|relax|linear",
+         "how features go over: advect moves them, for networks such as "
+         "joints; linear blends their distances, for spots; relax does both "
+         "(default auto: what leaves the fewest crumbs)"},
     [OTX_FLAG_FOR] =
         {"for", 0, OTX_FLAG_GROUP_MAIN, "CAGE.obj",
          "make only the tiles that `osdtex map CAGE.obj` needs with the same "

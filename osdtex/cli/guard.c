@@ -36,6 +36,26 @@ add_file(
     return status;
 }
 
+/* The files of FILE,FILE,... */
+static osdtex_status
+add_listed(
+    osdtex_context *context, bool deep, otx_path_list *list, const char *text)
+{
+    osdtex_status status = OSDTEX_OK;
+
+    while (text && *text && status == OSDTEX_OK)
+    {
+        const size_t length = strcspn(text, ",");
+        char *path = strndup(text, length);
+
+        status =
+            path ? add_file(context, deep, list, path) : OSDTEX_ERROR_MEMORY;
+        free(path);
+        text += length + (text[length] == ',');
+    }
+    return status;
+}
+
 osdtex_status
 otx_guard_named(
     osdtex_context *context, const otx_flag_values *values, bool deep,
@@ -59,6 +79,8 @@ otx_guard_named(
     }
     for (int i = 0; i < values->inputs.map_count && status == OSDTEX_OK; ++i)
         status = add_file(context, deep, out, values->inputs.maps[i]);
+    if (status == OSDTEX_OK)
+        status = add_listed(context, deep, out, values->text[OTX_FLAG_MASKS]);
     if (status == OSDTEX_OK)
         status = add_file(context, deep, out, values->inputs.saved.path);
     /* Operands stand in the place of the first ones. */

@@ -17,7 +17,7 @@ PRELUDE = """
 extern osdtex_context *context;
 extern osdtex_cage *cage;
 extern osdtex_surface *surface;
-extern osdtex_exemplar *exemplar, *tiles;
+extern osdtex_exemplar *exemplar, *tiles, *spots, *stripes;
 extern osdtex_image *image;
 extern osdtex_mapping *mapping;
 extern osdtex_map_options map_options;

@@ -1,0 +1,82 @@
+"""test_stack.py -- osdtex stack: slices between two pictures."""
+
+import sys
+import unittest
+
+from program import EXEMPLARS, ProgramTest
+
+SPOTS = EXEMPLARS / "spots_tile.png"
+PEBBLES = EXEMPLARS / "pebbles_tile.png"
+SMALL = ("--size", 64, "--slices", 3)
+
+
+class Stack(ProgramTest):
+    def stack(self, *words, name="a.exr"):
+        return self.run_program("stack", *words, "-o", self.folder / name)
+
+    def test_a_stack_and_its_masks_are_written(self):
+        result = self.stack(SPOTS, PEBBLES, *SMALL)
+        self.assert_exit(result, 0)
+        self.assertIn("3 slices of 64 x 64", result.stderr)
+        self.assertEqual(
+            sorted(p.name for p in self.folder.iterdir()),
+            ["a.exr", "a_mask1.png", "a_mask2.png"])
+        # Every part is a picture like any other.
+        for part in "m000", "m001", "m002", "mask001":
+            self.assert_exit(
+                self.run_program(
+                    "info", self.folder / "a.exr", "--layer", part), 0)
+
+    def test_the_same_bytes_on_one_thread(self):
+        for name, threads in ("a.exr", 1), ("b.exr", 3):
+            self.assert_exit(self.stack(
+                SPOTS, PEBBLES, *SMALL, "--threads", threads, name=name), 0)
+        self.assertEqual(self.picture("a.exr"), self.picture("b.exr"))
+
+    def test_masks_that_were_found_can_be_given(self):
+        self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
+        masks = ",".join(
+            str(self.folder / f"a_mask{k}.png") for k in (1, 2))
+        self.assert_exit(self.stack(
+            SPOTS, PEBBLES, *SMALL, "--masks", masks, name="b.exr"), 0)
+        self.assertEqual(self.picture("a.exr"), self.picture("b.exr"))
+        # They are inputs, and not written over.
+        self.assert_error(
+            self.stack(SPOTS, PEBBLES, *SMALL, "--masks", masks, "--replace"),
+            1, "is an input")
+
+    def test_three_pictures_in_a_row(self):
+        result = self.stack(SPOTS, PEBBLES, SPOTS, *SMALL)
+        self.assert_exit(result, 0)
+        self.assertIn("5 slices", result.stderr)
+
+    def test_what_cannot_be_stacked(self):
+        open_picture = EXEMPLARS / "stones_open.png"
+        for words, code, sentence in (
+                ((SPOTS,), 1, "EXEMPLAR"),
+                ((SPOTS, PEBBLES, "--slices", 1), 1, "2 to 64"),
+                ((SPOTS, PEBBLES, "--morph", "fade"), 1, "advect"),
+                ((SPOTS, open_picture, "--tileable", "keep", *SMALL), 1,
+                 "does not; make it"),
+                ((SPOTS, self.folder / "none.png"), 4, "none.png"),
+                ((SPOTS, PEBBLES, "--masks", "a,b,c"), 1, "3 files")):
+            result = self.stack(*words)
+            self.assertIn(
+                sentence, result.stderr, f"{words}\n{result.stderr}")
+            self.assertNotEqual(result.returncode, 0)
+            self.assert_nothing_written()
+
+    def test_a_mask_without_a_feature(self):
+        empty = self.folder / "empty.ppm"
+        self.need(modules=("PIL",))
+        from PIL import Image
+        empty = self.folder / "empty.png"
+        Image.new("RGB", (64, 64)).save(empty)
+        result = self.stack(SPOTS, PEBBLES, *SMALL, "--masks", empty)
+        self.assertIn("first picture is empty", result.stderr)
+        self.assertEqual(
+            [p.name for p in self.folder.iterdir()], ["empty.png"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
