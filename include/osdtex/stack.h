@@ -76,6 +76,7 @@ typedef struct osdtex_stack_info
     int32_t height;
     osdtex_morph morph;     /* that was taken; of the first stretch */
     osdtex_feature feature; /* that was looked for */
+    int32_t reserved;
     /* Texels that change their side of the mask from a slice to the next: the
      * most over the mean, the largest of all stretches. */
     double flips;
