@@ -138,7 +138,7 @@ typedef struct osdtex_exemplar_info
                             * tile, or the one tiles were made of */
     int32_t tile_size;     /* texels; 0: this is no tiled texture */
     uint32_t maps;         /* bit k: there is a map of kind k */
-    int32_t reserved;
+    int32_t slices;        /* of a stack; 0: this is none */
 } osdtex_exemplar_info;
 
 /* Reads EXR, PNG, TIFF or JPEG, told by content. FORMAT, SUPPORT, LIMIT,

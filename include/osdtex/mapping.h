@@ -112,6 +112,11 @@ typedef struct osdtex_map_options
      * stay as they were cut; OSDTEX_HEAL_AUTO: 64, only of seams that show, and
      * where it helps. Bakes and pictures show it, UVs cannot. */
     double heal;
+    /* Where the slices of a stack go (stack.h), unless constraints say it by
+     * their material: "x", "y", "z" from the lowest point of the surface to the
+     * highest, or "-x", "-y", "-z"; NULL: "y". Of other exemplars it says
+     * nothing. */
+    const char *along;
 } osdtex_map_options;
 
 static inline osdtex_map_options

@@ -4,8 +4,10 @@
 #include "analysis/exemplar_analysis.h"
 #include "api/call.h"
 #include "api/companion_pictures.h"
+#include "api/exemplar_slices.h"
 #include "api/picture_source.h"
 #include "base/hash.h"
+#include "file/exr_slices.h"
 #include "file/picture.h"
 #include "image/opaque.h"
 #include "quilt/period.h"
@@ -336,8 +338,10 @@ read_exemplar(
     const otx_exemplar_cuts *cuts, bool linear_only, osdtex_exemplar **out)
 {
     otx_exemplar_input input = {.linear_only = linear_only};
+    char middle[OTX_EXR_SLICE_NAME_BYTES];
     osdtex_exemplar_options ours;
     otx_picture picture;
+    int32_t slices;
     otx_run aside;
 
     if (!path)
@@ -346,7 +350,10 @@ read_exemplar(
             "no path of an exemplar is given");
     OTX_TRY(check_options(&call->run, options, &ours));
     OTX_TRY(otx_call_aside(call, &aside));
-    OTX_TRY(otx_picture_read_layer(&aside, path, ours.layer, &picture));
+    slices = ours.layer ? 0 : otx_exr_slice_count(path);
+    otx_exr_slice_name(slices / 2, middle);
+    OTX_TRY(otx_picture_read_layer(
+        &aside, path, slices ? middle : ours.layer, &picture));
     OTX_TRY(keep_source(&call->run, path, &input));
     input.pixels = picture.image;
     input.alpha_is_premultiplied = picture.alpha_is_premultiplied;
@@ -357,9 +364,20 @@ read_exemplar(
         ours.wrap = OSDTEX_WRAP_NO;
         ours.tileable = OSDTEX_TILEABLE_KEEP;
     }
+    if (slices)
+    {
+        ours.wrap = OSDTEX_WRAP_YES;
+        ours.tileable = OSDTEX_TILEABLE_KEEP;
+    }
     OTX_TRY(build(
         call, &input, &ours, cuts, otx_picture_source_type(&picture),
-        picture.tiles != NULL, out));
+        picture.tiles || slices, out));
+    if (slices)
+    {
+        OTX_TRY(otx_exemplar_slices_take(
+            call, path, slices, &input, &(*out)->exemplar));
+        (*out)->info.slices = slices;
+    }
     return picture.tiles ? keep_tiles(&call->run, path, picture.tiles, *out)
                          : OSDTEX_OK;
 }

@@ -4,6 +4,7 @@
 #include "api/heal_call.h"
 #include "api/map_input.h"
 #include "api/map_resolve.h"
+#include "api/material_axis.h"
 #include "api/method_settings.h"
 #include "api/several.h"
 #include "word/near.h"
@@ -123,6 +124,7 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
     run->seed = ours.seed;
     job = job_of(run, handle);
     OTX_TRY(otx_method_map(handle->method, &job, &handle->mapping));
+    OTX_TRY(otx_material_axis_take(run, ours.along, handle));
     OTX_TRY(otx_heal_call(run, ours.heal, handle));
     handle->info = otx_mapping_handle_info(handle);
     *out = handle;

@@ -110,7 +110,8 @@ texture_of(loader *l, const char *path, int32_t *out)
         OTX_TRY(otx_picture_read(run, path, &picture));
         OTX_TRY(linearise(l, path, &picture));
         *out = l->texture_count++;
-        l->textures[*out] = (otx_scene_texture){picture.image, true, true};
+        l->textures[*out] =
+            (otx_scene_texture){picture.image, true, true, NULL};
     }
     else
         otx_note(
@@ -131,7 +132,7 @@ constant_of(loader *l, const float color[3], int32_t *out)
     OTX_TRY(otx_image_create(run, run->arena, 1, 1, 3, &image));
     memcpy(image.pixels, color, 3 * sizeof *color);
     *out = l->texture_count++;
-    l->textures[*out] = (otx_scene_texture){image, true, true};
+    l->textures[*out] = (otx_scene_texture){image, true, true, NULL};
     return OSDTEX_OK;
 }
 

@@ -80,6 +80,9 @@ gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
     otx_tensors_add(out, "uvs", OTX_TENSOR_F32, leaf->corner_count, 2, m->uvs);
     OTX_TRY(otx_saved_lookups_add_reals(run, m, out));
     otx_saved_field_add_reals(m, out);
+    if (m->along)
+        otx_tensors_add(
+            out, "along", OTX_TENSOR_F32, leaf->vert_count, 0, m->along);
     otx_tensors_add(
         out, "face_cage", OTX_TENSOR_I32, leaf->face_count, 0, leaf->face_cage);
     otx_tensors_add(
@@ -435,6 +438,7 @@ join_arrays(const loader *l, otx_mapping *out)
         .exemplar_count = l->about.exemplar_count,
         .patch_exemplar =
             need(l, "patch_exemplar", OTX_TENSOR_U8, l->about.patch_count, 0),
+        .along = need(l, "along", OTX_TENSOR_F32, leaf->vert_count, 0),
     };
     OTX_TRY(otx_run_ok(run));
     memcpy(out->uvs, uvs, 2 * sizeof *uvs * (size_t)leaf->corner_count);

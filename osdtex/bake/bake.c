@@ -266,6 +266,17 @@ find_range(
     }
 }
 
+static otx_status
+make_texture(otx_run *run, const otx_exemplar *from, otx_texture *out)
+{
+    OTX_TRY(otx_texture_create(
+        run, run->arena, &from->linear, from->wrap_x, from->wrap_y, out));
+    return from->slices ? otx_texture_add_slices(
+                              run, run->arena, from->slices->linear,
+                              from->slices->count, out)
+                        : OSDTEX_OK;
+}
+
 otx_status
 otx_bake_create(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
@@ -289,9 +300,7 @@ otx_bake_create(
             exemplars, count, out->source.channels, out->source.low,
             out->source.high);
     for (int32_t k = 0; options->kind == OTX_TEXEL_COLOR && k < count; ++k)
-        OTX_TRY(otx_texture_create(
-            run, run->arena, &exemplars[k].linear, exemplars[k].wrap_x,
-            exemplars[k].wrap_y, &out->source.textures[k]));
+        OTX_TRY(make_texture(run, &exemplars[k], &out->source.textures[k]));
     if (options->maps && options->kind == OTX_TEXEL_COLOR)
         return otx_map_source_create(
             run, mapping, exemplars, layout, options->normals_y_down,

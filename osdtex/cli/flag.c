@@ -89,6 +89,11 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "up, edges (the cage's edge loops), curvature (least bending), or an "
          "axis X,Y,Z (default: what the file of constraints says, else "
          "smooth)"},
+    [OTX_FLAG_ALONG] =
+        {"along", 0, OTX_FLAG_GROUP_MAIN, "AXIS",
+         "of a stack (osdtex stack): its slices go from the lowest to the "
+         "highest point along x, y, z, or the other way along -x, -y, -z, "
+         "unless constraints name a material (default y)"},
     [OTX_FLAG_SYMMETRY] =
         {"symmetry", 0, OTX_FLAG_GROUP_MAIN, "1|2|4",
          "a field of arrows, of lines or of crosses (default: what the file "

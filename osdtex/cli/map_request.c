@@ -219,6 +219,7 @@ parse_fields(otx_map_request *r)
     r->map_options.mask = r->values->text[OTX_FLAG_MASK];
     r->map_options.constraints = r->values->text[OTX_FLAG_CONSTRAINTS];
     r->map_options.follow = r->values->text[OTX_FLAG_FOLLOW];
+    r->map_options.along = r->values->text[OTX_FLAG_ALONG];
     r->map_options.exemplar_class = r->values->text[OTX_FLAG_EXEMPLAR_CLASS];
     if (!text || otx_value_reals(text, 4, r->map_options.generators))
         return true;
@@ -290,13 +291,17 @@ static bool
 saved_stays(const otx_map_request *r)
 {
     static const otx_flag_id decided[] = {
-        OTX_FLAG_METHOD,      OTX_FLAG_SCALE,         OTX_FLAG_LEVEL,
-        OTX_FLAG_SEED,        OTX_FLAG_SET,           OTX_FLAG_TILE_LEVEL,
-        OTX_FLAG_ALSO,        OTX_FLAG_MASK,          OTX_FLAG_FIRST_PATCH,
-        OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOLLOW,        OTX_FLAG_GENERATORS,
-        OTX_FLAG_SCHEME,      OTX_FLAG_BOUNDARY,      OTX_FLAG_FVAR,
-        OTX_FLAG_MATCH_SPACE, OTX_FLAG_MATCH_IN,      OTX_FLAG_WRAP,
-        OTX_FLAG_TILEABLE,    OTX_FLAG_EXEMPLAR_CLASS};
+        OTX_FLAG_METHOD,      OTX_FLAG_SCALE,
+        OTX_FLAG_LEVEL,       OTX_FLAG_SEED,
+        OTX_FLAG_SET,         OTX_FLAG_TILE_LEVEL,
+        OTX_FLAG_ALSO,        OTX_FLAG_MASK,
+        OTX_FLAG_FIRST_PATCH, OTX_FLAG_CONSTRAINTS,
+        OTX_FLAG_FOLLOW,      OTX_FLAG_GENERATORS,
+        OTX_FLAG_SCHEME,      OTX_FLAG_BOUNDARY,
+        OTX_FLAG_FVAR,        OTX_FLAG_MATCH_SPACE,
+        OTX_FLAG_MATCH_IN,    OTX_FLAG_WRAP,
+        OTX_FLAG_TILEABLE,    OTX_FLAG_EXEMPLAR_CLASS,
+        OTX_FLAG_ALONG};
 
     for (size_t i = 0;
          r->values->inputs.saved.path && i < sizeof decided / sizeof *decided;

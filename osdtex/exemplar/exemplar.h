@@ -13,6 +13,15 @@
 #include "image/image.h"
 #include "image/tile_layout.h"
 
+/* The pictures of a stack, of one size: slices from one end of its axis to the
+ * other. */
+typedef struct otx_exemplar_slices
+{
+    int32_t count;
+    const otx_image *linear; /* [count] */
+    const otx_image *lab;    /* [count] */
+} otx_exemplar_slices;
+
 typedef struct otx_exemplar
 {
     otx_image linear; /* 3 or 4 channels (R, G, B[, A]) */
@@ -42,6 +51,9 @@ typedef struct otx_exemplar
     bool as_png;               /* and how, see otx_receiver_choice */
     otx_tile_layout tiles;     /* of a tiled texture; else `cell` is 0 */
     otx_companions companions; /* the other maps of its set */
+    /* Of a stack, of which the pictures above are the slice in the middle;
+     * NULL: there is no third axis. */
+    const otx_exemplar_slices *slices;
 } otx_exemplar;
 
 typedef enum otx_exemplar_wrap

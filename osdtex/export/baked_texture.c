@@ -24,7 +24,8 @@ otx_baked_texture_is_needed(const otx_mapping *mapping)
 {
     const otx_level *leaf = otx_surface_leaf(mapping->surface);
 
-    return (mapping->lookups &&
+    return mapping->along ||
+           (mapping->lookups &&
             mapping->lookups->layering == OTX_LAYERING_OVER) ||
            (mapping->field &&
             otx_source_field_is_whole(

@@ -15,9 +15,26 @@ otx_texture_create(
     otx_run *run, otx_arena *arena, const otx_image *image, bool wrap_x,
     bool wrap_y, otx_texture *out)
 {
-    out->wrap_x = wrap_x;
-    out->wrap_y = wrap_y;
+    *out = (otx_texture){.wrap_x = wrap_x, .wrap_y = wrap_y};
     return otx_pyramid_build(run, arena, image, &out->pyramid);
+}
+
+otx_status
+otx_texture_add_slices(
+    otx_run *run, otx_arena *arena, const otx_image *images, int32_t count,
+    otx_texture *texture)
+{
+    otx_texture *slices = OTX_ZNEW(arena, otx_texture, count);
+
+    if (!slices)
+        return otx_fail_memory(run, "texture");
+    for (int32_t k = 0; k < count; ++k)
+        OTX_TRY(otx_texture_create(
+            run, arena, &images[k], texture->wrap_x, texture->wrap_y,
+            &slices[k]));
+    texture->slices = slices;
+    texture->slice_count = count;
+    return OSDTEX_OK;
 }
 
 /* A coordinate brought near [0, 1], so that texel positions fit any integer

@@ -13,7 +13,29 @@ typedef struct otx_texture
 {
     otx_pyramid pyramid;
     bool wrap_x, wrap_y;
+    /* Of a stack: one for each slice, alike in size and channels. */
+    const struct otx_texture *slices; /* [slice_count]; NULL: this is one */
+    int32_t slice_count;
 } otx_texture;
+
+/* Two neighbouring slices of a stack of `count`, and the share of the second.
+ */
+typedef struct otx_texture_between
+{
+    int32_t first;
+    double share; /* 0: the first alone */
+} otx_texture_between;
+
+static inline otx_texture_between
+otx_texture_slices_at(int32_t count, double along)
+{
+    const double at =
+        (along > 0.0 ? along < 1.0 ? along : 1.0 : 0.0) * (double)(count - 1);
+    const int32_t first = (int32_t)at;
+
+    return first < count - 1 ? (otx_texture_between){first, at - first}
+                             : (otx_texture_between){count - 1, 0.0};
+}
 
 /* What a footprint comes to: the same for all samples of an affine piece. */
 typedef struct otx_texture_probes
@@ -29,6 +51,11 @@ typedef struct otx_texture_probes
 otx_status otx_texture_create(
     otx_run *run, otx_arena *arena, const otx_image *image, bool wrap_x,
     bool wrap_y, otx_texture *out);
+
+/* Gives a texture the slices of a stack, which it borrows. MEMORY. */
+otx_status otx_texture_add_slices(
+    otx_run *run, otx_arena *arena, const otx_image *images, int32_t count,
+    otx_texture *texture);
 
 /* Probes for the parallelogram spanned by uv_dx and uv_dy (UV from a sample to
  * the next). */

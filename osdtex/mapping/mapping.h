@@ -46,6 +46,9 @@ typedef struct otx_mapping
     const otx_cell_map *lattice;   /* that it shows; NULL none */
     const otx_lookups *lookups;    /* where there are several; NULL nowhere */
     const otx_source_field *field; /* where it was made by texels; NULL */
+    /* [leaf vert_count] the place along the axis of a stack, 0 to 1 [Ray09,
+     * sec. 1]; NULL: there is no such axis. */
+    const float *along;
 } otx_mapping;
 
 #endif

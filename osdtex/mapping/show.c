@@ -98,7 +98,7 @@ otx_show_term_at(
         look_around(show, place, &made);
         return made_term(show, place, exemplar, &made, index);
     }
-    if (otx_show_is_layered(show, place->face))
+    if (otx_show_has_lookups(show, place->face))
     {
         term.items = l->items + l->first[place->face] + (ptrdiff_t)index * size;
         for (int k = 0; k < 3; ++k)
@@ -198,6 +198,42 @@ masked(
         times(scale, dx), times(scale, dy));
 }
 
+double
+otx_show_along(const otx_show_view *show, const otx_show_place *place)
+{
+    double sum = 0.0;
+
+    for (int k = 0; k < 3; ++k)
+        sum += place->at[k] *
+               (double)show->along[show->face_verts[place->corners[k]]];
+    return sum;
+}
+
+/* Between two slices of a stack, channel by channel. */
+static void
+mix_into(float *values, const float *next, double share, int32_t channels)
+{
+    for (int32_t c = 0; c < channels; ++c)
+        values[c] += (float)share * (next[c] - values[c]);
+}
+
+static void
+probe_slices(
+    const otx_texture *texture, double along, const otx_texture_probes *probes,
+    otx_vec2 uv, float *values)
+{
+    const otx_texture_between b =
+        otx_texture_slices_at(texture->slice_count, along);
+    const otx_texture *slices = texture->slices + b.first;
+    float next[OTX_IMAGE_MAX_CHANNELS];
+
+    otx_texture_probe(slices, probes, uv, values);
+    if (!(b.share > 0.0))
+        return;
+    otx_texture_probe(slices + 1, probes, uv, next);
+    mix_into(values, next, b.share, slices->pyramid.levels[0].channels);
+}
+
 /* What a picture shows around a term's place, filtered over its footprint. */
 static void
 probe(
@@ -212,7 +248,11 @@ probe(
             texture,
             otx_vec2_scale(share, otx_show_mix(show, place, term, place->dx)),
             otx_vec2_scale(share, otx_show_mix(show, place, term, place->dy)));
-    otx_texture_probe(texture, &probes, term->uv, values);
+    if (show->along && texture->slice_count > 0)
+        probe_slices(
+            texture, otx_show_along(show, place), &probes, term->uv, values);
+    else
+        otx_texture_probe(texture, &probes, term->uv, values);
 }
 
 /* The values of a map in the frame of the place. */
@@ -331,6 +371,31 @@ otx_show_color(
     otx_show_finish(OTX_LAYERING_MEAN, &sum, channels, color);
 }
 
+static void
+look_up_lab(
+    const otx_show_view *show, const otx_show_place *place,
+    const otx_exemplar *from, otx_vec2 texel, float lab[3])
+{
+    const otx_image *images = &from->lab;
+    otx_texture_between b = {0, 0.0};
+    float next[3];
+
+    if (show->along && from->slices)
+    {
+        images = from->slices->lab;
+        b = otx_texture_slices_at(
+            from->slices->count, otx_show_along(show, place));
+    }
+    otx_view_value(
+        otx_view_of(images + b.first, from->wrap_x, from->wrap_y), texel, lab);
+    if (!(b.share > 0.0))
+        return;
+    otx_view_value(
+        otx_view_of(images + b.first + 1, from->wrap_x, from->wrap_y), texel,
+        next);
+    mix_into(lab, next, b.share, 3);
+}
+
 void
 otx_show_lab(
     const otx_show_view *show, const otx_exemplar *exemplars,
@@ -355,8 +420,7 @@ otx_show_lab(
 
         if (!(term.weight > 0.0))
             continue;
-        otx_view_value(
-            otx_view_of(&from->lab, from->wrap_x, from->wrap_y), texel, lab);
+        look_up_lab(show, place, from, texel, lab);
         if (!otx_show_is_layered(show, place->face))
             return;
         otx_show_add(

@@ -48,14 +48,19 @@ typedef struct otx_show_view
      * colours. */
     const otx_carry *carry;
     const otx_source_field *field; /* NULL nowhere */
+    /* Of stacks, by the vertices of corners; NULL both. */
+    const float *along;        /* [vert_count] */
+    const int32_t *face_verts; /* [corner_count] */
 } otx_show_view;
 
 static inline otx_show_view
 otx_show_of(const otx_mapping *mapping)
 {
+    const otx_level *leaf = otx_surface_leaf(mapping->surface);
+
     return (otx_show_view){
-        mapping->uvs, otx_surface_leaf(mapping->surface)->face_first,
-        mapping->lookups, NULL, mapping->field};
+        mapping->uvs,   leaf->face_first, mapping->lookups, NULL,
+        mapping->field, mapping->along,   leaf->face_verts};
 }
 
 /* Whether a face shows what was made texel by texel. */
@@ -65,13 +70,20 @@ otx_show_is_made(const otx_show_view *show, int32_t face)
     return show->field && show->field->face_chart[face] >= 0;
 }
 
-/* Whether a face shows anything but what its own UVs look up. */
+/* Whether it has lookups of its own. */
 static inline bool
-otx_show_is_layered(const otx_show_view *show, int32_t face)
+otx_show_has_lookups(const otx_show_view *show, int32_t face)
 {
     const otx_lookups *l = show->lookups;
 
-    return (l && l->first[face + 1] > l->first[face]) ||
+    return l && l->first[face + 1] > l->first[face];
+}
+
+/* Whether a face shows anything but what its own UVs look up in one picture. */
+static inline bool
+otx_show_is_layered(const otx_show_view *show, int32_t face)
+{
+    return show->along || otx_show_has_lookups(show, face) ||
            otx_show_is_made(show, face);
 }
 
@@ -92,7 +104,7 @@ otx_show_term_count(const otx_show_view *show, int32_t face)
 
     if (otx_show_is_made(show, face))
         return OTX_SOURCE_FIELD_TERMS;
-    return otx_show_is_layered(show, face)
+    return otx_show_has_lookups(show, face)
                ? (int32_t)((l->first[face + 1] - l->first[face]) / size)
                : 1;
 }
@@ -103,6 +115,9 @@ otx_show_term_count(const otx_show_view *show, int32_t face)
 otx_show_term otx_show_term_at(
     const otx_show_view *show, const otx_show_place *place, int32_t exemplar,
     int32_t index);
+
+/* Where along the axis of a stack a place is; the view has one. */
+double otx_show_along(const otx_show_view *show, const otx_show_place *place);
 
 /* UVs of a term, weighted by barycentric coordinates or their changes. */
 otx_vec2 otx_show_mix(

@@ -11,7 +11,8 @@ list_textures(otx_run *run, const otx_exemplar *exemplars, int32_t count)
 
     for (int32_t k = 0; list && k < count; ++k)
         list[k] = (otx_scene_texture){
-            exemplars[k].linear, exemplars[k].wrap_x, exemplars[k].wrap_y};
+            exemplars[k].linear, exemplars[k].wrap_x, exemplars[k].wrap_y,
+            exemplars[k].slices};
     return list;
 }
 
@@ -72,6 +73,7 @@ otx_scene_from_mapping(
         .uvs = mapping->uvs,
         .lookups = mapping->lookups,
         .field = mapping->field,
+        .along = mapping->along,
         .vert_normals = surface->normals,
         .texture_count = count,
         .textures = textures,

@@ -14,7 +14,8 @@
 typedef struct otx_scene_texture
 {
     otx_image image;
-    bool wrap_x, wrap_y; /* tiles, else the border is held */
+    bool wrap_x, wrap_y;               /* tiles, else the border is held */
+    const otx_exemplar_slices *slices; /* of a stack; NULL */
 } otx_scene_texture;
 
 typedef struct otx_scene
@@ -28,6 +29,7 @@ typedef struct otx_scene
     const float *uvs; /* [corner_count * 2], NULL: no texture is shown */
     const otx_lookups *lookups; /* of faces that show several; NULL nowhere */
     const otx_source_field *field; /* of faces made by texels; NULL nowhere */
+    const float *along; /* [vert_count] in stacks; NULL: there is none */
     /* Smooth normals, any length: per corner before per vertex; with neither,
      * faces are flat. */
     const float *corner_normals; /* [corner_count * 3] or NULL */

@@ -31,6 +31,10 @@ prepare_textures(otx_run *run, otx_shade *out)
         OTX_TRY(otx_texture_create(
             run, run->scratch, &from->image, from->wrap_x, from->wrap_y,
             &textures[i]));
+        if (from->slices)
+            OTX_TRY(otx_texture_add_slices(
+                run, run->scratch, from->slices->linear, from->slices->count,
+                &textures[i]));
     }
     out->textures = textures;
     return OSDTEX_OK;
@@ -205,7 +209,8 @@ texture_color(const otx_shade *shade, const otx_hit *hit, float rgb[3])
 {
     const otx_scene *scene = shade->scene;
     const otx_show_view show = {
-        scene->uvs, scene->face_first, scene->lookups, NULL, scene->field};
+        scene->uvs,   scene->face_first, scene->lookups,   NULL,
+        scene->field, scene->along,      scene->face_verts};
     const int32_t t = texture_of(scene, hit->face);
     const double share = 1.0 / shade->options->samples;
     float color[OTX_IMAGE_MAX_CHANNELS];
@@ -454,8 +459,8 @@ material_at(
     const otx_scene *scene = shade->scene;
     const otx_map_textures *maps = scene->maps;
     const otx_show_view show = {
-        scene->uvs, scene->face_first, scene->lookups, &maps->carry,
-        scene->field};
+        scene->uvs,   scene->face_first, scene->lookups,   &maps->carry,
+        scene->field, scene->along,      scene->face_verts};
     const footprint f = footprint_of(shade, hit);
     const otx_show_place place = {
         hit->face, hit->corners, hit->weights, f.dx, f.dy};

@@ -3,7 +3,7 @@
 import sys
 import unittest
 
-from program import EXEMPLARS, ProgramTest
+from program import CAGES, EXEMPLARS, ProgramTest
 
 SPOTS = EXEMPLARS / "spots_tile.png"
 PEBBLES = EXEMPLARS / "pebbles_tile.png"
@@ -76,6 +76,32 @@ class Stack(ProgramTest):
         self.assertIn("first picture is empty", result.stderr)
         self.assertEqual(
             [p.name for p in self.folder.iterdir()], ["empty.png"])
+
+    def test_slices_on_a_surface(self):
+        self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
+        stack, saved = self.folder / "a.exr", self.folder / "m.osdtex"
+        words = ("--scale", 1, "--level", 2, "--resolution", 128)
+        cage = CAGES / "plane.obj"
+        self.assert_exit(self.run_program(
+            "bake", cage, stack, "-o", self.folder / "b.obj", *words,
+            "--along", "x", "--save", saved), 0)
+        again = self.run_program(
+            "bake", "--from", saved, "-o", self.folder / "c.obj",
+            "--resolution", 128)
+        self.assert_exit(again, 0)
+        self.assertEqual(self.picture("b.1001.exr"), self.picture("c.1001.exr"))
+        # The other way along is another picture, and one slice is a third.
+        for name, more in ("d", ("--along", "-x")), ("e", ("--layer", "m000")):
+            self.assert_exit(self.run_program(
+                "bake", cage, stack, "-o", self.folder / f"{name}.obj",
+                *words, *more), 0)
+            self.assertNotEqual(
+                self.picture("b.1001.exr"),
+                self.picture(f"{name}.1001.exr"))
+        self.assert_error(
+            self.run_program(
+                "bake", cage, stack, "-o", self.folder / "f.obj", *words,
+                "--along", "up"), 1, "--along is x, y or z")
 
 
 if __name__ == "__main__":

@@ -68,7 +68,8 @@ set(otx_layering layering, float below, float above)
     s->fragments[1].exemplar = 1;
     s->runs[1] = 8;
     s->lookups = (otx_lookups){s->runs, s->items, layering, 2, s->fragments};
-    s->show = (otx_show_view){s->uvs, s->first, &s->lookups, NULL, NULL};
+    s->show = (otx_show_view){
+        .uvs = s->uvs, .face_first = s->first, .lookups = &s->lookups};
     s->place = (otx_show_place){0, s->corners, s->at, s->zero, s->zero};
     return s;
 }
@@ -92,6 +93,39 @@ a_plain_face_shows_its_own_exemplar(void **state)
     s->runs[1] = 0;
     assert_int_equal(otx_show_term_count(&s->show, 0), 1);
     expect(s, (float[4]){1.0f, 0.0f, 0.0f, 1.0f});
+    test_run_destroy(s->run);
+}
+
+/* Red and green as the slices of a stack: the coordinate of the vertices mixes
+ * them, and beyond the ends there is nothing else. */
+static void
+slices_are_mixed_along_an_axis(void **state)
+{
+    static const float ends[3] = {-0.5f, 0.25f, 2.0f};
+    static const float red[3] = {1.0f, 0.75f, 0.0f};
+    static const int32_t verts[4] = {0, 1, 2, 3};
+    stage *s = set(OTX_LAYERING_MEAN, 0.5f, 0.5f);
+    const otx_image slices[2] = {
+        s->exemplars[0].linear, s->exemplars[1].linear};
+    float along[4];
+
+    (void)state;
+    s->runs[1] = 0;
+    s->show.along = along;
+    s->show.face_verts = verts;
+    assert_int_equal(
+        otx_texture_add_slices(
+            s->run, s->run->arena, slices, 2, &s->textures[0]),
+        OSDTEX_OK);
+    assert_true(otx_show_is_layered(&s->show, 0));
+    for (int i = 0; i < 3; ++i)
+    {
+        for (int v = 0; v < 4; ++v)
+            along[v] = ends[i];
+        expect(
+            s, (float[4]){
+                   red[i], 0.5f * (1.0f - red[i]), 0.0f, 0.5f + 0.5f * red[i]});
+    }
     test_run_destroy(s->run);
 }
 
@@ -173,6 +207,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_plain_face_shows_its_own_exemplar),
+        cmocka_unit_test(slices_are_mixed_along_an_axis),
         cmocka_unit_test(a_mean_goes_by_weights),
         cmocka_unit_test(the_upper_covers_by_its_alpha),
         cmocka_unit_test(a_mask_cuts_the_upper_out),

@@ -1,0 +1,63 @@
+/* exemplar_slices.c -- one slice after the other. */
+#include "api/exemplar_slices.h"
+
+#include "file/exr_slices.h"
+#include "file/picture.h"
+
+/* One at a time is in memory as its file has it. */
+static otx_status
+take_slice(
+    otx_call *call, const char *path, int32_t index,
+    const otx_exemplar_input *how, const otx_exemplar *like, otx_image *linear,
+    otx_image *lab)
+{
+    char name[OTX_EXR_SLICE_NAME_BYTES];
+    otx_exemplar_input input = *how;
+    const otx_colour *colour;
+    otx_exemplar made;
+    otx_picture picture;
+    otx_run aside = call->run;
+    otx_status status;
+
+    otx_exr_slice_name(index, name);
+    OTX_TRY(otx_call_colour(call, &colour));
+    aside.arena = otx_arena_create(call->run.allocator);
+    if (!aside.arena)
+        return otx_fail_memory(&call->run, "exemplar");
+    status = otx_picture_read_layer(&aside, path, name, &picture);
+    input.pixels = picture.image;
+    if (status == OSDTEX_OK)
+        status = otx_exemplar_build(&call->run, colour, &input, &made);
+    otx_arena_destroy(aside.arena);
+    OTX_TRY(status);
+    if (made.linear.width != like->linear.width ||
+        made.linear.height != like->linear.height ||
+        made.linear.channels != like->linear.channels)
+        return otx_fail(
+            &call->run, OSDTEX_ERROR_ARGUMENT, "exemplar", otx_where_file(path),
+            "slice %s has %d x %d texels and %d channels, others have %d x %d "
+            "and %d; write the stack again",
+            name, made.linear.width, made.linear.height, made.linear.channels,
+            like->linear.width, like->linear.height, like->linear.channels);
+    *linear = made.linear;
+    *lab = made.lab;
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_exemplar_slices_take(
+    otx_call *call, const char *path, int32_t count,
+    const otx_exemplar_input *how, otx_exemplar *exemplar)
+{
+    otx_run *run = &call->run;
+    otx_exemplar_slices *slices = OTX_ZNEW(run->arena, otx_exemplar_slices, 1);
+    otx_image *linear = OTX_ZNEW(run->arena, otx_image, count);
+    otx_image *lab = OTX_ZNEW(run->arena, otx_image, count);
+
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t k = 0; k < count; ++k)
+        OTX_TRY(take_slice(call, path, k, how, exemplar, &linear[k], &lab[k]));
+    *slices = (otx_exemplar_slices){count, linear, lab};
+    exemplar->slices = slices;
+    return OSDTEX_OK;
+}
