@@ -32,8 +32,8 @@ typedef int32_t osdtex_feature;
 enum
 {
     OSDTEX_FEATURE_AUTO = 0,  /* what parts both pictures more clearly */
-    OSDTEX_FEATURE_SPOTS = 1, /* what is darker than the rest */
-    OSDTEX_FEATURE_JOINTS = 2 /* what is dark and narrow */
+    OSDTEX_FEATURE_SPOTS = 1, /* what is darker or lighter than most */
+    OSDTEX_FEATURE_JOINTS = 2 /* what is narrow besides */
 };
 
 enum

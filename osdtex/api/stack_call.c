@@ -149,7 +149,8 @@ find_masks(
     return OSDTEX_OK;
 }
 
-/* The thin or the minority phase is the feature, in all pictures alike. */
+/* The minority phase is the feature: where masks are given, in all pictures
+ * alike. */
 static void
 turn_masks(work *w)
 {
@@ -174,7 +175,6 @@ choose_masks(work *w)
         joints[OSDTEX_STACK_KEYS_MAX];
     const osdtex_feature asked = w->options.feature;
     double spot = 0.0, joint = 0.0;
-    bool any_given = false;
 
     if (asked != OSDTEX_FEATURE_JOINTS)
         OTX_TRY(find_masks(w, OTX_FEATURE_SPOTS, spots, &spot));
@@ -183,14 +183,12 @@ choose_masks(work *w)
     w->feature = joint > spot ? OTX_FEATURE_JOINTS : OTX_FEATURE_SPOTS;
     for (int32_t k = 0; k < w->count; ++k)
     {
-        any_given = any_given || is_given(w, k);
         if (is_given(w, k))
             OTX_TRY(take_mask(w, k, w->options.masks[k]));
         else
             w->masks[k] = joint > spot ? joints[k] : spots[k];
     }
-    if (!any_given)
-        turn_masks(w);
+    turn_masks(w);
     for (int32_t k = 0; k < w->count; ++k)
         w->keys[k] = (otx_stack_key){&w->exemplars[k], w->masks[k].texels};
     return OSDTEX_OK;

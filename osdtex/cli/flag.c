@@ -165,8 +165,9 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "NAME_mask1.png, ... to be changed and given here)"},
     [OTX_FLAG_FEATURES] =
         {"features", 0, OTX_FLAG_GROUP_MAIN, "auto|spots|joints",
-         "what to look for: spots are darker than the rest, joints are dark "
-         "and narrow (default auto: what parts the pictures more clearly)"},
+         "what to look for: spots are darker or lighter than the rest, joints "
+         "are narrow besides (default auto: what parts the pictures more "
+         "clearly)"},
     [OTX_FLAG_MORPH] =
         {"morph", 0, OTX_FLAG_GROUP_MAIN, "auto|advect|relax|linear",
          "how features go over: advect moves them, for networks such as "

@@ -12,7 +12,9 @@ enum
     TAPS_MAX = 31
 };
 
-#define SPOT_BLUR 1.5 /* texels; so that grain does not count */
+/* Texels; so that grain does not count. */
+#define SPOT_BLUR 1.5
+#define JOINT_BLUR 1.0
 
 /* Half the side of the square that joints are narrower than, for pictures of
  * 256 texels. */
@@ -183,6 +185,53 @@ otx_feature_mask_share(const uint8_t *mask, int64_t texels)
     return (double)in / (double)texels;
 }
 
+/* Turns lightness into how far a texel is below, or above, what is around it on
+ * a scale that narrow things stick out of: negative in them. */
+static void
+take_hat(plane *p, const float *light, int32_t radius, float sign)
+{
+    const int64_t texels = (int64_t)p->width * p->height;
+
+    for (int64_t i = 0; i < texels; ++i)
+        p->values[i] = sign * light[i];
+    close_narrow(p, radius);
+    for (int64_t i = 0; i < texels; ++i)
+        p->values[i] = sign * light[i] - p->values[i];
+}
+
+/* Texels below the threshold that parts `values`. */
+static void
+mark_below(const float *values, int64_t texels, otx_feature_mask *out)
+{
+    const double threshold = part(values, texels, &out->clarity);
+
+    for (int64_t i = 0; i < texels; ++i)
+        out->texels[i] = out->clarity > 0.0 && (double)values[i] < threshold;
+    out->share = otx_feature_mask_share(out->texels, texels);
+}
+
+/* Dark joints or light ones, whichever are clearer. */
+static otx_status
+find_joints(otx_run *run, plane *p, int32_t radius, otx_feature_mask *out)
+{
+    const int64_t texels = (int64_t)p->width * p->height;
+    float *light = OTX_NEW(run->scratch, float, texels);
+    otx_feature_mask other = {.texels = OTX_NEW(run->scratch, uint8_t, texels)};
+
+    OTX_TRY(otx_run_ok(run));
+    memcpy(light, p->values, (size_t)texels * sizeof *light);
+    take_hat(p, light, radius, 1.0f);
+    mark_below(p->values, texels, out);
+    take_hat(p, light, radius, -1.0f);
+    mark_below(p->values, texels, &other);
+    if (other.clarity <= out->clarity)
+        return OSDTEX_OK;
+    memcpy(out->texels, other.texels, (size_t)texels);
+    out->share = other.share;
+    out->clarity = other.clarity;
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_feature_mask_find(
     otx_run *run, const otx_image *lab, otx_feature feature,
@@ -194,27 +243,20 @@ otx_feature_mask_find(
     plane p = {
         lab->width, lab->height, OTX_NEW(run->scratch, float, texels),
         OTX_NEW(run->scratch, float, texels)};
-    double threshold;
 
     *out = (otx_feature_mask){.texels = OTX_NEW(run->arena, uint8_t, texels)};
     OTX_TRY(otx_run_ok(run));
     lightness(lab, &p);
-    blur(&p, joints ? 0.5 * SPOT_BLUR : SPOT_BLUR);
+    blur(&p, joints ? JOINT_BLUR : SPOT_BLUR);
     if (joints)
-    {
-        float *light = OTX_NEW(run->scratch, float, texels);
-
-        OTX_TRY(otx_run_ok(run));
-        memcpy(light, p.values, (size_t)texels * sizeof *light);
-        close_narrow(&p, hat_radius(lab));
-        for (int64_t i = 0; i < texels; ++i)
-            p.values[i] = light[i] - p.values[i]; /* dark is below, as spots */
-    }
-    threshold = part(p.values, texels, &out->clarity);
-    for (int64_t i = 0; i < texels; ++i)
-        out->texels[i] = out->clarity > 0.0 && (double)p.values[i] < threshold;
+        OTX_TRY(find_joints(run, &p, hat_radius(lab), out));
+    else
+        mark_below(p.values, texels, out);
     otx_arena_release(run->scratch, mark);
-    out->share = otx_feature_mask_share(out->texels, texels);
+    /* The minority is the feature. */
+    for (int64_t i = 0; i < texels && out->share > 0.5; ++i)
+        out->texels[i] = !out->texels[i];
+    out->share = out->share > 0.5 ? 1.0 - out->share : out->share;
     return OSDTEX_OK;
 }
 

@@ -11,8 +11,8 @@
 
 typedef enum otx_feature
 {
-    OTX_FEATURE_SPOTS, /* dark, against a threshold of lightness */
-    OTX_FEATURE_JOINTS /* dark and thin, by a black top hat */
+    OTX_FEATURE_SPOTS, /* the minority on one side of a lightness */
+    OTX_FEATURE_JOINTS /* narrow, by a black or a white top hat */
 } otx_feature;
 
 /* What a detector made of a picture. */

@@ -12,6 +12,9 @@ enum
     FEATURES = 8   /* of a texel: Lab, edges, the mask */
 };
 
+/* What begins with a slice that is nearly right needs half the rounds. */
+#define EFFORT 0.5
+
 static const char STAGE[] = "stack";
 
 typedef struct work
@@ -138,6 +141,7 @@ make_slice(work *w, int32_t m, const int32_t *before, int32_t *out)
 
     options.levels = w->pattern.level_count;
     options.turn = 0.0;
+    options.effort = EFFORT;
     options.stage = "slice";
     options.seed = w->input->seed + (uint64_t)m;
     draw_to(w, before, w->input->masks[m - 1], w->input->masks[m]);

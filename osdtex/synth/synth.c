@@ -6,6 +6,8 @@
 #include "synth/start.h"
 #include "synth/vote.h"
 
+#include <math.h>
+
 /* Rounds of search and vote, by level from the finest. */
 static const int32_t ROUNDS[] = {1, 2, 4, 8, 16, 16};
 
@@ -21,14 +23,17 @@ enum
 static int32_t
 rounds_at(const otx_maker *m, int32_t level)
 {
-    if (level == 0 || level < m->level_count - 1)
-        return ROUNDS[level];
-    if (m->options->rounds > 0)
-        return m->options->rounds;
+    const otx_synth_options *o = m->options;
+    const double effort = o->effort > 0.0 ? o->effort : 1.0;
+    int32_t whole = ROUNDS[level];
+
     /* Charts that chose by themselves have to come to terms, where nothing
      * that was given stands between them. */
-    return m->options->starts > 1 && m->options->given ? ROUNDS_CHOSEN
-                                                       : ROUNDS_COARSEST;
+    if (level > 0 && level == m->level_count - 1)
+        whole = o->rounds > 0               ? o->rounds
+                : o->starts > 1 && o->given ? ROUNDS_CHOSEN
+                                            : ROUNDS_COARSEST;
+    return (int32_t)ceil(effort * whole);
 }
 
 /* Of the first round. */

@@ -94,6 +94,7 @@ typedef struct otx_synth_options
     int32_t symmetry;      /* of a field: turns by 360 / symmetry degrees are
                             * equal in it; 1, 2 or 4 */
     uint64_t seed;
+    double effort;     /* factor on the rounds of search and vote; 0 is 1 */
     const char *stage; /* of progress */
 } otx_synth_options;
 

@@ -24,11 +24,11 @@ is_joint(int32_t x, int32_t y)
     return x % 32 < 3 || y % 16 < 3;
 }
 
-/* Dark features in grain; shaded from side to side where asked for. */
+/* Dark or light features in grain; shaded from side to side where asked for. */
 static void
 paint(
-    otx_run *run, bool (*feature)(int32_t, int32_t), double shade,
-    otx_image *lab)
+    otx_run *run, bool (*feature)(int32_t, int32_t), double contrast,
+    double shade, otx_image *lab)
 {
     assert_int_equal(
         otx_image_create(run, run->arena, SIDE, SIDE, 3, lab), OSDTEX_OK);
@@ -40,7 +40,8 @@ paint(
                 8.0 * otx_random_unit(3, 1, (uint64_t)(y * SIDE + x));
             const double slow = shade * sin(2.0 * OTX_PI * x / SIDE);
 
-            v[0] = (float)((feature(x, y) ? 25.0 : 60.0) + noise + slow);
+            v[0] =
+                (float)((feature(x, y) ? 50.0 + contrast : 50.0) + noise + slow);
             v[1] = v[2] = 0.0f;
         }
 }
@@ -68,7 +69,7 @@ spots_are_found(void **state)
     otx_feature_mask mask;
 
     (void)state;
-    paint(run, is_spot, 0.0, &lab);
+    paint(run, is_spot, -30.0, 0.0, &lab);
     assert_int_equal(
         otx_feature_mask_find(run, &lab, OTX_FEATURE_SPOTS, &mask), OSDTEX_OK);
     assert_true(overlap(mask.texels, is_spot) > 0.9);
@@ -76,7 +77,7 @@ spots_are_found(void **state)
     test_run_destroy(run);
 }
 
-/* Where light and dark change over the picture, too. */
+/* Dark ones and light ones, where the light changes over the picture, too. */
 static void
 joints_are_found_in_shade(void **state)
 {
@@ -85,10 +86,14 @@ joints_are_found_in_shade(void **state)
     otx_feature_mask mask;
 
     (void)state;
-    paint(run, is_joint, 15.0, &lab);
-    assert_int_equal(
-        otx_feature_mask_find(run, &lab, OTX_FEATURE_JOINTS, &mask), OSDTEX_OK);
-    assert_true(overlap(mask.texels, is_joint) > 0.8);
+    for (int i = -1; i <= 1; i += 2)
+    {
+        paint(run, is_joint, 30.0 * i, 12.0, &lab);
+        assert_int_equal(
+            otx_feature_mask_find(run, &lab, OTX_FEATURE_JOINTS, &mask),
+            OSDTEX_OK);
+        assert_true(overlap(mask.texels, is_joint) > 0.8);
+    }
     test_run_destroy(run);
 }
 
