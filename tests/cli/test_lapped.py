@@ -51,7 +51,7 @@ class Lapped(ProgramTest):
     def test_maps_of_a_material_are_missed_aloud(self):
         """Only the colour is baked beside the mesh."""
         result = self.run_program(
-            "map", CAGE, *HOW, "--level", "1", "--resolution", "64", "--material",
+            "map", CAGE, *HOW, "--level", "1", "--resolution", "256", "--material",
             EXEMPLARS.parent / "materials" / "waves", "-o",
             self.folder / "out.obj")
         self.assert_exit(result, 0)
