@@ -18,7 +18,7 @@
 enum
 {
     STAGE_SCATTER = 0x7fff0000, /* of random numbers; no pass has it */
-    ROUNDS = 10,
+    ROUNDS = 16,
     PASSES = 2
 };
 
