@@ -2,6 +2,7 @@
 #include "folder.h"
 
 #include "file/usda.h"
+#include "file/usda_name.h"
 
 #include <math.h>
 
