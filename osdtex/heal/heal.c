@@ -139,7 +139,8 @@ tell(healer *h, const otx_gate_view *view, int when)
     const double unit = sigma > 0.0 ? 1.0 / sigma : 0.0;
     otx_heal_figures *f = h->figures;
 
-    f->windows_interior_p90 = unit * view->interior_p90;
+    if (when == 0) /* that was the gate */
+        f->windows_interior_p90 = unit * view->interior_p90;
     f->windows_itself = unit * h->itself;
     f->windows_on[when] = unit * mean_of(h, view->on);
     f->windows_around[when] = unit * mean_of(h, view->around);
