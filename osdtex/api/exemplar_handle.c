@@ -374,8 +374,9 @@ read_exemplar(
         picture.tiles || slices, out));
     if (slices)
     {
-        OTX_TRY(otx_exemplar_slices_take(
-            call, path, slices, &input, &(*out)->exemplar));
+        OTX_TRY(otx_exemplar_slices_read(
+            call, path, slices, &input, &(*out)->exemplar,
+            &(*out)->exemplar.slices));
         (*out)->info.slices = slices;
     }
     return picture.tiles ? keep_tiles(&call->run, path, picture.tiles, *out)

@@ -45,9 +45,10 @@ take_slice(
 }
 
 otx_status
-otx_exemplar_slices_take(
+otx_exemplar_slices_read(
     otx_call *call, const char *path, int32_t count,
-    const otx_exemplar_input *how, otx_exemplar *exemplar)
+    const otx_exemplar_input *how, const otx_exemplar *like,
+    const otx_exemplar_slices **out)
 {
     otx_run *run = &call->run;
     otx_exemplar_slices *slices = OTX_ZNEW(run->arena, otx_exemplar_slices, 1);
@@ -56,8 +57,8 @@ otx_exemplar_slices_take(
 
     OTX_TRY(otx_run_ok(run));
     for (int32_t k = 0; k < count; ++k)
-        OTX_TRY(take_slice(call, path, k, how, exemplar, &linear[k], &lab[k]));
+        OTX_TRY(take_slice(call, path, k, how, like, &linear[k], &lab[k]));
     *slices = (otx_exemplar_slices){count, linear, lab};
-    exemplar->slices = slices;
+    *out = slices;
     return OSDTEX_OK;
 }

@@ -6,10 +6,11 @@
 #include "exemplar/exemplar.h"
 
 /* Reads slices 0 .. count - 1 of the stack at `path` in the way that `how`
- * built the exemplar of one of them, and gives them to it. ARGUMENT where a
- * slice has another size, IO, FORMAT, MEMORY. */
-otx_status otx_exemplar_slices_take(
+ * built `like`, the exemplar of one of them. ARGUMENT where a slice has another
+ * size, IO, FORMAT, MEMORY. */
+otx_status otx_exemplar_slices_read(
     otx_call *call, const char *path, int32_t count,
-    const otx_exemplar_input *how, otx_exemplar *exemplar);
+    const otx_exemplar_input *how, const otx_exemplar *like,
+    const otx_exemplar_slices **out);
 
 #endif
