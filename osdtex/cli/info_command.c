@@ -74,6 +74,10 @@ print_exemplar(const char *name, const osdtex_exemplar_info *e)
     otx_session_print(
         "  tiles       %s%s\n", tiles[e->wrap_x != 0][e->wrap_y != 0],
         e->made_tileable ? ", once made to" : "");
+    if (e->slices > 0)
+        otx_session_print(
+            "  slices      %d along an axis, of which this is the middle one\n",
+            e->slices);
 }
 
 static void

@@ -21,6 +21,8 @@ class Stack(ProgramTest):
         self.assertEqual(
             sorted(p.name for p in self.folder.iterdir()),
             ["a.exr", "a_mask1.png", "a_mask2.png"])
+        known = self.run_program("info", self.folder / "a.exr")
+        self.assertIn("slices      3 along an axis", known.stdout)
         # Every part is a picture like any other.
         for part in "m000", "m001", "m002", "mask001":
             self.assert_exit(
