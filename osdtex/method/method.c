@@ -12,10 +12,16 @@ extern const otx_method otx_method_material;
 extern const otx_method otx_method_tile;
 extern const otx_method otx_method_vertex;
 
+/* A line each, so that a method is taken out by deleting its own. */
+/* clang-format off */
 static const otx_method *const METHODS[] = {
-    &otx_method_hierarchical, &otx_method_material, &otx_method_tile,
-    &otx_method_lapped,       &otx_method_vertex,
+    &otx_method_hierarchical,
+    &otx_method_material,
+    &otx_method_tile,
+    &otx_method_lapped,
+    &otx_method_vertex,
 };
+/* clang-format on */
 
 int32_t
 otx_method_count(void)
@@ -139,16 +145,28 @@ otx_method_map(const otx_method *method, const otx_job *job, otx_mapping *out)
         method->name);
 }
 
+static const otx_method *
+first_filler(void)
+{
+    for (int32_t i = 0; i < otx_method_count(); ++i)
+        if (METHODS[i]->fill)
+            return METHODS[i];
+    return NULL;
+}
+
+bool
+otx_method_can_fill(void)
+{
+    return first_filler() != NULL;
+}
+
 /* The first method of the table that can fill, with its own settings instead
  * of job->settings. */
 static otx_status
 find_filling(const otx_job *job, const otx_method **out, void **settings)
 {
-    const otx_method *method = NULL;
+    const otx_method *method = first_filler();
 
-    for (int32_t i = 0; i < otx_method_count() && !method; ++i)
-        if (METHODS[i]->fill)
-            method = METHODS[i];
     if (!method)
         return otx_fail(
             job->run, OSDTEX_ERROR_SUPPORT, "map", OTX_NOWHERE,

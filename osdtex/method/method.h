@@ -98,6 +98,9 @@ const otx_method *otx_method_for_tiles(void);
  * that had a reason were not taken. job->settings is not looked at. */
 otx_status otx_method_choose(const otx_job *job, const otx_method **out);
 
+/* Whether this build has a method for otx_method_fill. */
+bool otx_method_can_fill(void);
+
 /* Covers what is not given by the first method of the table that can, with
  * its defaults instead of job->settings. SUPPORT when none can. */
 otx_status otx_method_fill(

@@ -85,6 +85,11 @@ choose_start(otx_vertex *v)
         v->settings.start = OTX_VERTEX_START_RANDOM;
     if (v->settings.start != OTX_VERTEX_START_AUTO)
         return;
+    if (!directed && !otx_method_can_fill())
+    {
+        v->settings.start = OTX_VERTEX_START_RANDOM;
+        return;
+    }
     v->settings.start =
         directed ? OTX_VERTEX_START_RANDOM : OTX_VERTEX_START_PATCHES;
     otx_note(
