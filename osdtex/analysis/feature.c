@@ -2,13 +2,13 @@
  * deep enough between them. */
 #include "analysis/feature.h"
 
+#include "image/threshold.h"
 #include "image/view.h"
 
 #include <string.h>
 
 enum
 {
-    BINS = 256,
     SPECK = 60,  /* texels: smaller joints and features are none */
     FEWEST = 6,  /* features */
     PASSES = 3,  /* boxes to a Gaussian */
@@ -113,47 +113,6 @@ contrast(otx_run *run, const plane *p, const otx_image *lab, float **out)
     return OSDTEX_OK;
 }
 
-/* The value that parts two classes best [Otsu79]. */
-static double
-best_threshold(const float *values, int32_t n)
-{
-    double least = (double)values[0], most = least, all = 0.0, best = -1.0;
-    double below = 0.0, sum = 0.0, cut = 0.0;
-    int32_t counts[BINS] = {0};
-
-    for (int32_t i = 0; i < n; ++i)
-    {
-        least = fmin(least, (double)values[i]);
-        most = fmax(most, (double)values[i]);
-    }
-    if (!(most > least))
-        return most;
-    for (int32_t i = 0; i < n; ++i)
-    {
-        const int32_t bin =
-            (int32_t)(((double)values[i] - least) / (most - least) * (BINS - 1));
-
-        ++counts[bin];
-        all += bin;
-    }
-    for (int32_t bin = 0; bin < BINS - 1; ++bin)
-    {
-        double apart;
-
-        below += counts[bin];
-        sum += (double)bin * counts[bin];
-        if (!(below > 0.0 && below < n))
-            continue;
-        apart = sum / below - (all - sum) / (n - below);
-        if (below * (n - below) * apart * apart > best)
-        {
-            best = below * (n - below) * apart * apart;
-            cut = bin + 0.5;
-        }
-    }
-    return least + cut / (BINS - 1) * (most - least);
-}
-
 /* Labels what hangs together with a texel of the same `kind`; how much that
  * is. */
 static int32_t
@@ -223,14 +182,15 @@ find_joints(
     OTX_TRY(contrast(run, p, lab, &darker));
     for (int side = 0; side < 2; ++side)
     {
-        double cut, hangs, share;
+        otx_threshold cut;
+        double hangs, share;
 
         if (side == 1)
             for (int32_t i = 0; i < n; ++i)
                 darker[i] = -darker[i];
-        cut = best_threshold(darker, n);
+        cut = otx_threshold_find(darker, n);
         for (int32_t i = 0; i < n; ++i)
-            other[i] = (double)darker[i] > cut;
+            other[i] = cut.clarity > 0.0 && (double)darker[i] >= cut.value;
         clean_joints(p, other, labels, &hangs, &share);
         if (share > 0.55 || hangs * (1.0 - share) <= best)
             continue;

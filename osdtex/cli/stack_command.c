@@ -49,29 +49,14 @@ parse_word(
 }
 
 static bool
-parse_number(
-    const otx_flag_values *values, otx_flag_id id, int64_t low, int64_t high,
-    int64_t *out)
-{
-    const char *text = values->text[id];
-
-    if (!text || otx_value_int(text, low, high, out))
-        return true;
-    otx_session_refuse(
-        "--%s takes a whole number from %lld to %lld, not '%s'",
-        otx_flag_at(id)->name, (long long)low, (long long)high, text);
-    return false;
-}
-
-static bool
 parse_numbers(job *j)
 {
     int64_t slices = j->options.slices, width = 0, seed = 1;
 
-    if (!parse_number(
+    if (!otx_inputs_number(
             j->values, OTX_FLAG_SLICES, 2, OSDTEX_STACK_SLICES_MAX, &slices) ||
-        !parse_number(j->values, OTX_FLAG_STACK_SIZE, 32, 8192, &width) ||
-        !parse_number(j->values, OTX_FLAG_SEED, 0, INT64_MAX, &seed))
+        !otx_inputs_number(j->values, OTX_FLAG_STACK_SIZE, 32, 8192, &width) ||
+        !otx_inputs_number(j->values, OTX_FLAG_SEED, 0, INT64_MAX, &seed))
         return false;
     j->options.slices = (int32_t)slices;
     j->options.width = (int32_t)width;

@@ -1,14 +1,14 @@
-/* feature_mask.c -- thresholds, and what hangs together. */
+/* feature_mask.c -- what sticks out, and what hangs together. */
 #include "stack/feature_mask.h"
 
 #include "base/union_find.h"
+#include "image/threshold.h"
 
 #include <math.h>
 #include <string.h>
 
 enum
 {
-    BINS = 256,
     TAPS_MAX = 31
 };
 
@@ -103,58 +103,6 @@ close_narrow(plane *p, int32_t radius)
     }
 }
 
-/* ---- thresholds ---------------------------------------------------------- */
-
-/* The threshold that parts values best in two, and how well [Otsu79]. */
-static double
-part(const float *values, int64_t count, double *clarity)
-{
-    double low = (double)INFINITY, high = -(double)INFINITY;
-    double histogram[BINS] = {0.0};
-    double all = 0.0, squares = 0.0, below = 0.0, mass = 0.0, best = -1.0;
-    int32_t cut = 0;
-
-    *clarity = 0.0;
-    for (int64_t i = 0; i < count; ++i)
-    {
-        low = fmin(low, (double)values[i]);
-        high = fmax(high, (double)values[i]);
-    }
-    if (!(high > low))
-        return low;
-    for (int64_t i = 0; i < count; ++i)
-    {
-        const int32_t b =
-            (int32_t)((BINS - 1) * ((double)values[i] - low) / (high - low));
-
-        histogram[b] += 1.0 / (double)count;
-    }
-    for (int32_t b = 0; b < BINS; ++b)
-    {
-        all += b * histogram[b];
-        squares += (double)b * b * histogram[b];
-    }
-    for (int32_t b = 0; b < BINS - 1; ++b)
-    {
-        mass += histogram[b];
-        below += b * histogram[b];
-        if (mass > 0.0 && mass < 1.0)
-        {
-            const double apart = all * mass - below;
-            const double between = apart * apart / (mass * (1.0 - mass));
-
-            if (between > best)
-            {
-                best = between;
-                cut = b;
-            }
-        }
-    }
-    if (squares > all * all)
-        *clarity = fmax(best, 0.0) / (squares - all * all);
-    return low + (high - low) * (cut + 1) / (BINS - 1);
-}
-
 /* ---- finding ------------------------------------------------------------- */
 
 static void
@@ -203,10 +151,11 @@ take_hat(plane *p, const float *light, int32_t radius, float sign)
 static void
 mark_below(const float *values, int64_t texels, otx_feature_mask *out)
 {
-    const double threshold = part(values, texels, &out->clarity);
+    const otx_threshold t = otx_threshold_find(values, texels);
 
+    out->clarity = t.clarity;
     for (int64_t i = 0; i < texels; ++i)
-        out->texels[i] = out->clarity > 0.0 && (double)values[i] < threshold;
+        out->texels[i] = t.clarity > 0.0 && (double)values[i] < t.value;
     out->share = otx_feature_mask_share(out->texels, texels);
 }
 
