@@ -378,6 +378,11 @@ read_exemplar(
             call, path, slices, &input, &(*out)->exemplar,
             &(*out)->exemplar.slices));
         (*out)->info.slices = slices;
+        otx_note(
+            &call->run, OSDTEX_SEVERITY_INFO, "exemplar", otx_where_file(path),
+            "the file is a stack of %d slices; what is matched is the one in "
+            "the middle",
+            slices);
     }
     return picture.tiles ? keep_tiles(&call->run, path, picture.tiles, *out)
                          : OSDTEX_OK;

@@ -1,5 +1,7 @@
 """test_stack.py -- osdtex stack: slices between two pictures."""
 
+import json
+import struct
 import sys
 import unittest
 
@@ -104,6 +106,45 @@ class Stack(ProgramTest):
             self.run_program(
                 "bake", cage, stack, "-o", self.folder / "f.obj", *words,
                 "--along", "up"), 1, "--along is x, y or z")
+
+    def along(self, *more):
+        """The coordinate of the vertices of a torus that is not refined, and
+        its faces."""
+        cage, saved = CAGES / "torus.obj", self.folder / "t.osdtex"
+        self.assert_exit(self.run_program(
+            "bake", cage, self.folder / "a.exr", "-o", self.folder / "t.obj",
+            "--scale", 4, "--level", 0, "--resolution", 64, "--save", saved,
+            *more), 0)
+        whole = saved.read_bytes()
+        length = int.from_bytes(whole[:8], "little")
+        begin, end = json.loads(whole[8:8 + length])["along"]["data_offsets"]
+        values = whole[8 + length + begin:8 + length + end]
+        faces = [
+            [int(corner.split("/")[0]) - 1 for corner in line.split()[1:]]
+            for line in cage.read_text().splitlines() if line.startswith("f ")]
+        return struct.unpack(f"<{len(values) // 4}f", values), faces
+
+    def test_constraints_say_where_slices_go(self):
+        self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
+        asked = {0: 0.2, 50: 0.9}
+        rules = self.folder / "rules.json"
+        rules.write_text(json.dumps({"constraints": [
+            {"face": f, "material": m} for f, m in asked.items()]}))
+        values, faces = self.along("--constraints", rules)
+        for face, material in asked.items():
+            for vertex in faces[face]:
+                self.assertAlmostEqual(values[vertex], material, delta=0.02)
+        self.assertTrue(all(0.2 - 1e-4 <= v <= 0.9 + 1e-4 for v in values))
+        self.assertGreater(len(set(values)), 20)
+
+    def test_a_material_without_slices_is_said(self):
+        rules = self.folder / "rules.json"
+        rules.write_text('{"constraints": [{"face": 0, "material": 0.5}]}')
+        result = self.run_map(
+            CAGES / "torus.obj", SPOTS, "--level", 1, "--scale", 4,
+            "--constraints", rules)
+        self.assert_exit(result, 0)
+        self.assertIn("the exemplar has one only", result.stderr)
 
 
 if __name__ == "__main__":
