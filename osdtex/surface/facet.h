@@ -1,8 +1,8 @@
 /* facet.h -- leaf faces as triangles, the way they are rendered.
  *
- * They are fans about their first corner, as readers of models cut quads:
- * Blender, three.js, the viewers of USD. What is baked for one diagonal shows a
- * bent quad wrongly along the other. Within a facet everything is affine:
+ * They are fans about their first corner, as Blender cuts quads (see
+ * tests/dcc/test_blender.py). What is baked for one diagonal shows a bent quad
+ * wrongly along the other. Within a facet everything is affine:
  * texture coordinates, exemplar UVs, positions. */
 #ifndef OTX_SURFACE_FACET_H
 #define OTX_SURFACE_FACET_H
