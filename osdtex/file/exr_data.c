@@ -1,6 +1,8 @@
 /* exr_data.c -- channels gathered into layers by their names. */
 #include "file/exr_data.h"
 
+#include "file/exr_core.h"
+
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -125,26 +127,15 @@ list_all(otx_run *run, exr_const_context_t file, otx_exr_data_list *out)
     return OSDTEX_OK;
 }
 
-static void
-on_error(exr_const_context_t file, exr_result_t code, const char *message)
-{
-    (void)file;
-    (void)code;
-    (void)message;
-}
-
 otx_status
 otx_exr_data_list_read(otx_run *run, const char *path, otx_exr_data_list *out)
 {
-    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    exr_context_initializer_t setup = otx_exr_core_reading();
     exr_context_t file = NULL;
     exr_result_t code;
     otx_status status;
 
     *out = (otx_exr_data_list){0, NULL};
-    setup.error_handler_fn = on_error;
-    setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION |
-                  EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE;
     code = exr_start_read(&file, path, &setup);
     if (code != EXR_ERR_SUCCESS)
         return otx_fail(

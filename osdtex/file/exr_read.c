@@ -7,6 +7,7 @@
 #include "file/exr.h"
 
 #include "bridge/openexr.h"
+#include "file/exr_core.h"
 #include "file/exr_layer.h"
 
 /* The table of the C++ library is not linked. */
@@ -33,16 +34,6 @@ typedef struct reader
     otx_exr_layer layer;
     exr_compression_t compression;
 } reader;
-
-/* Without a handler the core prints. What it says may quote bytes of the file,
- * so only its fixed messages are passed on. */
-static void
-on_error(exr_const_context_t file, exr_result_t code, const char *message)
-{
-    (void)file;
-    (void)code;
-    (void)message;
-}
 
 static otx_status
 reader_failed(const reader *r, exr_result_t code)
@@ -87,13 +78,9 @@ reader_close(void *object)
 static otx_status
 reader_open(reader *r)
 {
-    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    exr_context_initializer_t setup = otx_exr_core_reading();
     exr_result_t code;
 
-    setup.error_handler_fn = on_error;
-    /* Rebuilding a damaged offset table means to search the whole file. */
-    setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION |
-                  EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE;
     code = exr_start_read(&r->file, r->path, &setup);
     return code == EXR_ERR_SUCCESS ? OSDTEX_OK : reader_failed(r, code);
 }

@@ -1,17 +1,10 @@
 /* exr_slices.c -- parts by their names. */
 #include "file/exr_slices.h"
 
-#include <openexr.h>
+#include "file/exr_core.h"
+
 #include <stdio.h>
 #include <string.h>
-
-static void
-on_error(exr_const_context_t file, exr_result_t code, const char *message)
-{
-    (void)file;
-    (void)code;
-    (void)message;
-}
 
 void
 otx_exr_slice_name(int32_t index, char name[static OTX_EXR_SLICE_NAME_BYTES])
@@ -22,14 +15,11 @@ otx_exr_slice_name(int32_t index, char name[static OTX_EXR_SLICE_NAME_BYTES])
 int32_t
 otx_exr_slice_count(const char *path)
 {
-    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    exr_context_initializer_t setup = otx_exr_core_reading();
     char wanted[OTX_EXR_SLICE_NAME_BYTES];
     exr_context_t file = NULL;
     int32_t count = 0, parts = 0;
 
-    setup.error_handler_fn = on_error;
-    setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION |
-                  EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE;
     if (exr_start_read(&file, path, &setup) != EXR_ERR_SUCCESS)
         return 0;
     exr_get_count(file, &parts);

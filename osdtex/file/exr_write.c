@@ -7,6 +7,7 @@
 #include "file/exr.h"
 
 #include "base/build.h"
+#include "file/exr_core.h"
 #include "file/mark.h"
 #include "image/pyramid.h"
 
@@ -42,15 +43,6 @@ typedef struct place
 {
     int32_t x, y, width, height;
 } place;
-
-/* Without a handler the core prints. */
-static void
-on_error(exr_const_context_t file, exr_result_t code, const char *message)
-{
-    (void)file;
-    (void)code;
-    (void)message;
-}
 
 /* Whether the system says that there is no room. The core gives no reason, but
  * its last call was the write that failed. */
@@ -435,7 +427,7 @@ otx_exr_open_parts(
     otx_run *run, const char *path, const char *temporary,
     const otx_exr_part *parts, int32_t count, otx_exr_writer **out)
 {
-    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    exr_context_initializer_t setup = otx_exr_core_writing();
     otx_exr_writer *w = OTX_ZNEW(run->scratch, otx_exr_writer, 1);
 
     *out = NULL;
@@ -445,7 +437,6 @@ otx_exr_open_parts(
         return otx_fail_memory(run, "picture");
     w->run = run;
     w->path = path;
-    setup.error_handler_fn = on_error;
     OTX_TRY(check(
         w,
         exr_start_write(&w->file, temporary, EXR_WRITE_FILE_DIRECTLY, &setup)));

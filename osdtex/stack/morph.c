@@ -1,8 +1,8 @@
 /* morph.c -- many small steps, of which a few are kept. */
 #include "stack/morph.h"
 
-#include "image/image.h"
 #include "image/mask_distance.h"
+#include "image/view.h"
 #include "stack/feature_mask.h"
 #include "stack/subsample.h"
 
@@ -54,18 +54,16 @@ at(const work *w, const float *field, int32_t x, int32_t y)
          otx_image_wrap(x, w->width)];
 }
 
+/* Between texels, whose middles are at whole numbers. */
 static float
-between(const work *w, const float *field, double x, double y)
+between(const work *w, float *field, double x, double y)
 {
-    const double i = floor(x), j = floor(y);
-    const float fx = (float)(x - i), fy = (float)(y - j);
-    const int32_t a = (int32_t)i, b = (int32_t)j;
-    const float low =
-        at(w, field, a, b) * (1 - fx) + at(w, field, a + 1, b) * fx;
-    const float high =
-        at(w, field, a, b + 1) * (1 - fx) + at(w, field, a + 1, b + 1) * fx;
+    const otx_image image = {w->width, w->height, 1, field};
+    float value;
 
-    return low * (1 - fy) + high * fy;
+    otx_view_value(
+        otx_view_of(&image, true, true), (otx_vec2){x + 0.5, y + 0.5}, &value);
+    return value;
 }
 
 /* Features outside of the target move along its distances' slope. */
