@@ -57,7 +57,7 @@ typedef struct osdtex_render_options
                        * "top"; "seam1" to "seam99": close to the places
                        * where seams show, the worst first; NULL:
                        * three_quarter */
-    double turn;      /* of the view, radians about Y */
+    double turn;      /* of the view, radians about what is up */
     /* Where the eye is instead of `view`; fov 0: not used. */
     double eye[3];
     double target[3];
@@ -67,6 +67,10 @@ typedef struct osdtex_render_options
                           * without its other maps */
     int32_t displace;    /* 1: vertices are moved by its heights */
     int32_t no_shadows;  /* 1: lit without rays to the model itself */
+    int32_t up_axis;     /* 1: Z is up, 0: Y; `view` and `turn` go by it */
+    int32_t orbit;       /* 1: `view` is as far away as holds the model at every
+                          * `turn`, for frames of a turntable; 0: as near as
+                          * fills the picture */
 } osdtex_render_options;
 
 static inline osdtex_render_options

@@ -62,6 +62,8 @@ options_of(
     out->plain = ours->plain != 0;
     out->no_shadows = ours->no_shadows != 0;
     out->turn = ours->turn;
+    out->up = ours->up_axis ? OTX_UP_Z : OTX_UP_Y;
+    out->orbit = ours->orbit != 0;
     if (ours->show && !otx_render_show_find(ours->show, &out->show))
         return no_such(run, "picture to show", ours->show, show_name);
     if (seam == 0 && ours->view &&
@@ -70,13 +72,14 @@ options_of(
     if (seam > 0 && ours->fov == 0.0)
     {
         OTX_TRY(otx_worst_seam_camera(run, &model->scene, seam, camera));
+        camera->up = out->up;
         out->camera = camera;
     }
     if (ours->fov == 0.0)
         return OSDTEX_OK;
     *camera = (otx_camera){
         place_of(model, ours->eye), place_of(model, ours->target), ours->fov,
-        0.0};
+        0.0, out->up};
     out->camera = camera;
     return OSDTEX_OK;
 }

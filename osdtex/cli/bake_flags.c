@@ -1,5 +1,6 @@
 /* bake_flags.c -- words of flags to options of a bake. */
 #include "cli/bake_flags.h"
+#include "cli/picture_flags.h"
 #include "cli/session.h"
 #include "cli/value.h"
 
@@ -134,24 +135,6 @@ parse_units(const otx_flag_values *values, osdtex_bake_options *out)
     return true;
 }
 
-static bool
-parse_up(const otx_flag_values *values, osdtex_bake_options *out)
-{
-    static const char *const words[] = {"y", "z"};
-    const char *text = values->text[OTX_FLAG_UP];
-    int index;
-
-    if (!text)
-        return true;
-    if (!otx_value_word(text, words, 2, &index))
-    {
-        otx_session_refuse("--up takes y or z, not '%s'", text);
-        return false;
-    }
-    out->up_axis = index;
-    return true;
-}
-
 bool
 otx_bake_flags_parse(const otx_flag_values *values, osdtex_bake_options *out)
 {
@@ -160,5 +143,5 @@ otx_bake_flags_parse(const otx_flag_values *values, osdtex_bake_options *out)
     out->preview_png = values->text[OTX_FLAG_PREVIEW_PNG] != NULL;
     return parse_uvs(values, out) && parse_numbers(values, out) &&
            parse_extras(values, out) && parse_units(values, out) &&
-           parse_up(values, out);
+           otx_picture_flags_up(values, &out->up_axis);
 }

@@ -226,7 +226,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "or houdini, else cm)"},
     [OTX_FLAG_UP] =
         {"up", 0, OTX_FLAG_GROUP_BAKE, "y|z",
-         "which axis points up, for NAME.usda; nothing is turned (default y)"},
+         "which axis points up, for NAME.usda and for pictures; nothing is "
+         "turned (default y)"},
     [OTX_FLAG_PREVIEW] =
         {"preview", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "also render the result to a .png or .exr"},

@@ -97,18 +97,15 @@ read_saved(otx_session *session, job *j)
 static osdtex_status
 render_preview(otx_session *session, job *j)
 {
-    osdtex_render_options options = osdtex_render_options_default();
     osdtex_model *model;
     osdtex_status status;
 
     if (!j->request.preview)
         return OSDTEX_OK;
-    options.show = j->request.values->text[OTX_FLAG_SHOW];
-    options.plain = j->request.values->text[OTX_FLAG_PLAIN] != NULL;
-    options.displace = j->request.values->text[OTX_FLAG_DISPLACE] != NULL;
     status = osdtex_model_create(session->context, j->mapping, &model);
     if (status == OSDTEX_OK)
-        status = osdtex_render(session->context, model, &options, &j->picture);
+        status = osdtex_render(
+            session->context, model, &j->request.picture, &j->picture);
     osdtex_model_destroy(model);
     return status;
 }
@@ -360,21 +357,39 @@ prepare(otx_session *session, job *j)
     return status;
 }
 
-/* Flags of the bake where nothing is baked. Two of them have a say without:
- * the size of the texture of pastes, and healing in previews and what is saved,
- * whose loss in UVs the library tells. */
+/* Some flags of the bake have a say where nothing is baked: the size of the
+ * texture of pastes, healing in previews and what is saved, whose loss in UVs
+ * the library tells, and which way is up in previews. */
+static bool
+is_for_bakes_only(const otx_map_request *r, int id)
+{
+    return otx_flag_at((otx_flag_id)id)->group == OTX_FLAG_GROUP_BAKE &&
+           id != OTX_FLAG_RESOLUTION && id != OTX_FLAG_HEAL &&
+           !(id == OTX_FLAG_UP && r->preview);
+}
+
+/* Flags of the bake where nothing is baked, and of pictures without one. */
 static void
 say_unused(otx_session *session, const otx_map_request *r)
 {
-    for (int id = 0; !r->bakes && id < OTX_FLAG_COUNT; ++id)
-        if (r->values->text[id] &&
-            otx_flag_at((otx_flag_id)id)->group == OTX_FLAG_GROUP_BAKE &&
-            id != OTX_FLAG_RESOLUTION && id != OTX_FLAG_HEAL)
+    for (int id = 0; id < OTX_FLAG_COUNT; ++id)
+    {
+        if (!r->values->text[id])
+            continue;
+        if (!r->bakes && is_for_bakes_only(r, id))
             otx_session_say(
                 session,
                 "warning: --%s is for a bake, which only --bake asks "
                 "for here",
                 otx_flag_at((otx_flag_id)id)->name);
+        if (!r->preview &&
+            otx_flag_at((otx_flag_id)id)->group == OTX_FLAG_GROUP_PICTURE)
+            otx_session_say(
+                session,
+                "warning: --%s is for a picture, which only --preview "
+                "asks for here",
+                otx_flag_at((otx_flag_id)id)->name);
+    }
 }
 
 static int

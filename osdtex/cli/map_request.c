@@ -5,6 +5,7 @@
 #include "cli/bake_flags.h"
 #include "cli/bake_outputs.h"
 #include "cli/inputs.h"
+#include "cli/picture_flags.h"
 #include "cli/saved_files.h"
 #include "cli/up_to_date.h"
 #include "cli/value.h"
@@ -344,6 +345,7 @@ otx_map_request_parse(
     if (!otx_inputs_cage(values, &r->cage_options) ||
         !otx_inputs_exemplar(values, &r->exemplar_options) ||
         !otx_bake_flags_parse(values, &r->bake_options) ||
+        !otx_picture_flags_parse(values, &r->picture) ||
         !otx_also_flags_parse(values, &r->also) || !name_outputs(r) ||
         !parse_numbers(r) || !parse_tile_level(r) || !parse_first_patch(r) ||
         !parse_fields(r) || !parse_heal(r))

@@ -24,7 +24,8 @@ typedef struct otx_map_request
     otx_material_flags material;
     osdtex_setting settings[OTX_FLAG_SETTINGS_MAX + 1];
     osdtex_bake_options bake_options;
-    bool maps, bakes; /* which files are asked for */
+    osdtex_render_options picture; /* of the preview */
+    bool maps, bakes;              /* which files are asked for */
     char obj[OTX_MAP_PATH_BYTES], mtl[OTX_MAP_PATH_BYTES];
     char exrs[OSDTEX_EXEMPLARS_MAX][OTX_MAP_PATH_BYTES];
     int exr_count; /* 0 before a saved mapping has said */

@@ -65,6 +65,25 @@ parse_size(const otx_flag_values *values, osdtex_render_options *out)
 }
 
 bool
+otx_picture_flags_up(const otx_flag_values *values, int32_t *out)
+{
+    static const char *const words[] = {"y", "z"};
+    const char *text = values->text[OTX_FLAG_UP];
+    int index;
+
+    *out = 0;
+    if (!text)
+        return true;
+    if (!otx_value_word(text, words, 2, &index))
+    {
+        otx_session_refuse("--up takes y or z, not '%s'", text);
+        return false;
+    }
+    *out = index;
+    return true;
+}
+
+bool
 otx_picture_flags_parse(
     const otx_flag_values *values, osdtex_render_options *out)
 {
@@ -78,7 +97,8 @@ otx_picture_flags_parse(
     out->plain = values->text[OTX_FLAG_PLAIN] != NULL;
     out->displace = values->text[OTX_FLAG_DISPLACE] != NULL;
     out->no_shadows = values->text[OTX_FLAG_NO_SHADOWS] != NULL;
-    if (!parse_camera(values, out) || !parse_size(values, out))
+    if (!parse_camera(values, out) || !parse_size(values, out) ||
+        !otx_picture_flags_up(values, &out->up_axis))
         return false;
     if (samples)
     {

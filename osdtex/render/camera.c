@@ -1,9 +1,9 @@
-/* camera.c -- views, framing and pixel rays. */
+/* camera.c -- views and pixel rays. */
 #include "render/camera.h"
 
 #include <string.h>
 
-/* Directions from the model to the eye, not unit. */
+/* Directions from the model to the eye where Y is up, not unit. */
 static const struct
 {
     const char *name;
@@ -35,24 +35,22 @@ otx_camera_view_find(const char *name, otx_view *out)
     return false;
 }
 
-otx_camera
-otx_camera_see(
-    otx_view view, otx_vec3 centre, double radius, double aspect, double turn)
+otx_vec3
+otx_camera_from(otx_view view, otx_up up, double turn)
 {
-    /* A little air around the sphere. */
-    const double margin = 1.04;
-    const double half = 0.5 * OTX_CAMERA_FOV;
-    const double narrow = aspect < 1.0 ? atan(aspect * tan(half)) : half;
-    const double reach = radius > 0.0 ? radius : 1.0;
-    const double distance = margin * reach / sin(narrow);
     const otx_vec3 from = otx_vec3_unit(VIEWS[view].from);
     const otx_vec3 turned = {
         cos(turn) * from.x + sin(turn) * from.z, from.y,
         cos(turn) * from.z - sin(turn) * from.x};
 
-    return (otx_camera){
-        otx_vec3_add(centre, otx_vec3_scale(distance, turned)), centre,
-        OTX_CAMERA_FOV, 0.0};
+    return up == OTX_UP_Z ? (otx_vec3){turned.x, -turned.z, turned.y} : turned;
+}
+
+otx_vec3
+otx_camera_up(otx_up up)
+{
+    return up == OTX_UP_Z ? (otx_vec3){0.0, 0.0, 1.0}
+                          : (otx_vec3){0.0, 1.0, 0.0};
 }
 
 static bool
@@ -77,11 +75,15 @@ otx_camera_aim(const otx_camera *camera, int32_t width, int32_t height)
     const otx_vec3 gaze = otx_vec3_sub(camera->target, camera->eye);
     const otx_vec3 forward = otx_vec3_unit(gaze);
     const double pixel = 2.0 * tan(0.5 * camera->fov) / height;
-    otx_vec3 right = otx_vec3_cross(forward, (otx_vec3){0.0, 1.0, 0.0});
+    const otx_vec3 upward = otx_camera_up(camera->up);
+    otx_vec3 right = otx_vec3_cross(forward, upward);
 
-    /* Straight down -Z is up in the picture, straight up +Z is. */
+    /* Straight down the back is up in the picture, straight up the front is. */
     if (otx_vec3_length(right) < 1e-6)
-        right = otx_vec3_cross(forward, (otx_vec3){0.0, 0.0, forward.y});
+        right = otx_vec3_cross(
+            forward, otx_vec3_scale(
+                         otx_vec3_dot(forward, upward),
+                         otx_camera_from(OTX_VIEW_FRONT, camera->up, 0.0)));
     right = otx_vec3_unit(right);
     return (otx_camera_frame){
         camera->eye,

@@ -1,4 +1,4 @@
-/* camera.h -- where a picture is taken from. Y is up. */
+/* camera.h -- where a picture is taken from. */
 #ifndef OTX_RENDER_CAMERA_H
 #define OTX_RENDER_CAMERA_H
 
@@ -8,13 +8,21 @@
 typedef enum otx_view
 {
     OTX_VIEW_THREE_QUARTER, /* the default: from the front right, above */
-    OTX_VIEW_FRONT,         /* from +Z */
+    OTX_VIEW_FRONT,         /* from +Z, or -Y where Z is up */
     OTX_VIEW_BACK,
     OTX_VIEW_LEFT, /* from -X */
     OTX_VIEW_RIGHT,
-    OTX_VIEW_TOP, /* from +Y, -Z up in the picture */
+    OTX_VIEW_TOP, /* from above, the back up in the picture */
     OTX_VIEW_COUNT
 } otx_view;
+
+/* Which axis of the scene points up; X points right in both. */
+typedef enum otx_up
+{
+    OTX_UP_Y,
+    OTX_UP_Z,
+    OTX_UP_COUNT
+} otx_up;
 
 typedef struct otx_camera
 {
@@ -22,6 +30,7 @@ typedef struct otx_camera
     double fov;           /* of the picture's height, radians, (0, pi) */
     double clip; /* [0, 1): what is nearer than this share of the way to the
                   * target is looked through */
+    otx_up up;
 } otx_camera;
 
 /* Frame of a camera for one picture: pixel (x, y), y up from the bottom row,
@@ -41,10 +50,12 @@ const char *otx_camera_view_name(otx_view view);
 /* False when there is no view of that name. */
 bool otx_camera_view_find(const char *name, otx_view *out);
 
-/* A view that holds the sphere (centre, radius) in a picture of that aspect
- * (width / height), turned by `turn` radians counter-clockwise about Y. */
-otx_camera otx_camera_see(
-    otx_view view, otx_vec3 centre, double radius, double aspect, double turn);
+/* Unit, from the model to the eye of a view that is turned by `turn` radians
+ * counter-clockwise about what is up. */
+otx_vec3 otx_camera_from(otx_view view, otx_up up, double turn);
+
+/* Where up is, unit. */
+otx_vec3 otx_camera_up(otx_up up);
 
 /* Whether the camera can see at all: finite, eye apart from the target, field
  * of view in (0, pi). */

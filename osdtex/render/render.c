@@ -2,6 +2,7 @@
 #include "render/render.h"
 
 #include "base/random.h"
+#include "render/framing.h"
 #include "render/shade.h"
 
 #include <string.h>
@@ -84,6 +85,7 @@ check_options(otx_run *run, const otx_render_options *options)
             options->samples, MAX_SAMPLES);
     if (options->show < 0 || options->show >= OTX_SHOW_COUNT ||
         options->view < 0 || options->view >= OTX_VIEW_COUNT ||
+        options->up < 0 || options->up >= OTX_UP_COUNT ||
         !isfinite(options->turn) || !isfinite(options->seam_width))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
@@ -227,19 +229,12 @@ aim_camera(
     const otx_scene *scene, const otx_tracer *tracer,
     const otx_render_options *options)
 {
-    otx_vec3 centre;
-    double radius;
-    otx_camera camera;
+    const otx_framing framing = {
+        options->view, options->up, options->turn,
+        (double)options->width / options->height, options->orbit};
+    otx_camera camera = options->camera ? *options->camera
+                                        : otx_framing_camera(scene, &framing);
 
-    if (options->camera)
-        camera = *options->camera;
-    else
-    {
-        otx_scene_bounds(scene, &centre, &radius);
-        camera = otx_camera_see(
-            options->view, centre, radius,
-            (double)options->width / options->height, options->turn);
-    }
     camera.eye = otx_tracer_inside(tracer, camera.eye);
     camera.target = otx_tracer_inside(tracer, camera.target);
     return otx_camera_aim(&camera, options->width, options->height);

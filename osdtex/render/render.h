@@ -36,7 +36,9 @@ typedef struct otx_render_options
     bool transparent;         /* alpha 0 around the model, else a grey wall */
     const otx_camera *camera; /* NULL: `view` and `turn` */
     otx_view view;
-    double turn;                /* radians about Y */
+    otx_up up;
+    bool orbit;                 /* the view holds the model at every turn */
+    double turn;                /* radians about what is up */
     double seam_width;          /* of the lines, pixels */
     const otx_overlay *overlay; /* for FIELD, SINGULARITIES, CELLS */
 } otx_render_options;

@@ -288,7 +288,7 @@ view_of(const place *p, double height)
 
     return (otx_camera){
         otx_vec3_add(target, otx_vec3_scale(distance, normal)), target,
-        OTX_CAMERA_FOV, CLIP};
+        OTX_CAMERA_FOV, CLIP, OTX_UP_Y};
 }
 
 /* Says where it is, and how bad. */

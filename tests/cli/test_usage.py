@@ -86,7 +86,7 @@ class Mistakes(ProgramTest):
     def test_unknown_flags_and_missing_values(self):
         self.map_refused("no option '-z'", "-z")
         self.map_refused("'--level' needs a value", "--level")
-        self.map_refused("cannot stand here", "--unlit")
+        self.map_refused("cannot stand here", "--oriented")
         self.map_refused("'--quiet' takes no value", "--quiet=3")
 
     def test_operands(self):

@@ -94,7 +94,11 @@ static inline otx_camera
 facing_camera(double distance)
 {
     return (otx_camera){
-        {0.0, 0.0, distance}, {0.0, 0.0, 0.0}, 2.0 * atan(1.0 / distance), 0.0};
+        {0.0, 0.0, distance},
+        {0.0, 0.0, 0.0},
+        2.0 * atan(1.0 / distance),
+        0.0,
+        OTX_UP_Y};
 }
 
 /* A texture of `size` squared with three channels, all zero. */

@@ -5,14 +5,21 @@
 
 static const otx_vec3 CENTRE = {3.0, -2.0, 5.0};
 
+static otx_camera
+looking(otx_view view, otx_up up, double turn)
+{
+    return (otx_camera){
+        otx_vec3_mix(1.0, CENTRE, 6.0, otx_camera_from(view, up, turn)), CENTRE,
+        OTX_CAMERA_FOV, 0.0, up};
+}
+
 static void
 projection_undoes_directions(void **state)
 {
     (void)state;
     for (int32_t view = 0; view < OTX_VIEW_COUNT; ++view)
     {
-        const otx_camera camera =
-            otx_camera_see((otx_view)view, CENTRE, 2.0, 1.5, 0.7);
+        const otx_camera camera = looking((otx_view)view, OTX_UP_Y, 0.7);
         const otx_camera_frame frame = otx_camera_aim(&camera, 300, 200);
 
         for (int32_t i = 0; i < 20; ++i)
@@ -30,28 +37,10 @@ projection_undoes_directions(void **state)
 }
 
 static void
-the_sphere_fills_the_shorter_side(void **state)
+expect_direction(
+    otx_view view, otx_up axis, double turn, otx_vec3 from, otx_vec3 up)
 {
-    static const double aspects[] = {0.5, 1.0, 2.0};
-
-    (void)state;
-    for (size_t i = 0; i < 3; ++i)
-    {
-        const otx_camera camera = otx_camera_see(
-            OTX_VIEW_THREE_QUARTER, CENTRE, 2.0, aspects[i], 0.0);
-        const double distance =
-            otx_vec3_length(otx_vec3_sub(camera.eye, CENTRE));
-        const double rim = tan(asin(2.0 / distance));
-        const double half = tan(0.5 * camera.fov) * fmin(1.0, aspects[i]);
-
-        assert_true(rim < half && rim > 0.93 * half);
-    }
-}
-
-static void
-expect_direction(otx_view view, double turn, otx_vec3 from, otx_vec3 up)
-{
-    const otx_camera camera = otx_camera_see(view, CENTRE, 1.0, 1.0, turn);
+    const otx_camera camera = looking(view, axis, turn);
     const otx_camera_frame frame = otx_camera_aim(&camera, 10, 10);
 
     assert_true(fabs(otx_vec3_dot(frame.forward, from) + 1.0) < 1e-12);
@@ -63,21 +52,27 @@ views_look_from_where_they_say(void **state)
 {
     const otx_vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
     const otx_vec3 minus_x = {-1, 0, 0}, minus_z = {0, 0, -1};
+    const otx_vec3 minus_y = {0, -1, 0};
 
     (void)state;
-    expect_direction(OTX_VIEW_FRONT, 0.0, z, y);
-    expect_direction(OTX_VIEW_BACK, 0.0, minus_z, y);
-    expect_direction(OTX_VIEW_RIGHT, 0.0, x, y);
-    expect_direction(OTX_VIEW_LEFT, 0.0, minus_x, y);
-    expect_direction(OTX_VIEW_TOP, 0.0, y, minus_z);
+    expect_direction(OTX_VIEW_FRONT, OTX_UP_Y, 0.0, z, y);
+    expect_direction(OTX_VIEW_BACK, OTX_UP_Y, 0.0, minus_z, y);
+    expect_direction(OTX_VIEW_RIGHT, OTX_UP_Y, 0.0, x, y);
+    expect_direction(OTX_VIEW_LEFT, OTX_UP_Y, 0.0, minus_x, y);
+    expect_direction(OTX_VIEW_TOP, OTX_UP_Y, 0.0, y, minus_z);
     /* A quarter turn takes the eye from the front to the right. */
-    expect_direction(OTX_VIEW_FRONT, 0.5 * OTX_PI, x, y);
+    expect_direction(OTX_VIEW_FRONT, OTX_UP_Y, 0.5 * OTX_PI, x, y);
+    /* Z up: from -Y, as the programs do that have it so. */
+    expect_direction(OTX_VIEW_FRONT, OTX_UP_Z, 0.0, minus_y, z);
+    expect_direction(OTX_VIEW_RIGHT, OTX_UP_Z, 0.0, x, z);
+    expect_direction(OTX_VIEW_TOP, OTX_UP_Z, 0.0, z, y);
+    expect_direction(OTX_VIEW_FRONT, OTX_UP_Z, 0.5 * OTX_PI, x, z);
 }
 
 static void
 blind_cameras_are_told(void **state)
 {
-    otx_camera camera = {{0, 0, 1}, {0, 0, 0}, 1.0, 0.0};
+    otx_camera camera = {{0, 0, 1}, {0, 0, 0}, 1.0, 0.0, OTX_UP_Y};
 
     (void)state;
     assert_true(otx_camera_is_valid(&camera));
@@ -95,7 +90,7 @@ blind_cameras_are_told(void **state)
 static void
 nothing_behind_the_eye_is_seen(void **state)
 {
-    const otx_camera camera = {{0, 0, 1}, {0, 0, 0}, 1.0, 0.0};
+    const otx_camera camera = {{0, 0, 1}, {0, 0, 0}, 1.0, 0.0, OTX_UP_Y};
     const otx_camera_frame frame = otx_camera_aim(&camera, 10, 10);
     otx_vec2 at;
 
@@ -126,7 +121,6 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(projection_undoes_directions),
-        cmocka_unit_test(the_sphere_fills_the_shorter_side),
         cmocka_unit_test(views_look_from_where_they_say),
         cmocka_unit_test(blind_cameras_are_told),
         cmocka_unit_test(nothing_behind_the_eye_is_seen),

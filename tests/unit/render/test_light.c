@@ -13,8 +13,12 @@ enum
 static otx_light
 light_on(otx_run *run, const otx_scene *scene, double turn, bool shadows)
 {
-    const otx_camera camera =
-        otx_camera_see(OTX_VIEW_FRONT, (otx_vec3){0, 0, 0}, 1.0, 1.0, turn);
+    const otx_camera camera = {
+        otx_vec3_scale(4.0, otx_camera_from(OTX_VIEW_FRONT, OTX_UP_Y, turn)),
+        {0.0, 0.0, 0.0},
+        OTX_CAMERA_FOV,
+        0.0,
+        OTX_UP_Y};
     const otx_camera_frame frame = otx_camera_aim(&camera, 64, 64);
     otx_tracer *tracer;
 

@@ -10,7 +10,11 @@ a_sphere_covers_its_silhouette(void **state)
     /* The cone that touches a unit sphere, on a picture at distance 1. */
     const double rim = 1.0 / sqrt(distance * distance - 1.0);
     const otx_camera camera = {
-        {0.0, 0.0, distance}, {0.0, 0.0, 0.0}, 2.0 * atan(1.25 * rim), 0.0};
+        {0.0, 0.0, distance},
+        {0.0, 0.0, 0.0},
+        2.0 * atan(1.25 * rim),
+        0.0,
+        OTX_UP_Y};
     otx_render_options options = facing_options(&camera, 160);
     const double radius = 80.0 / 1.25;
     const otx_image image = render(run, &scene, &options);
@@ -28,7 +32,7 @@ what_is_clipped_is_looked_through(void **state)
     otx_run *run = test_run_create();
     const otx_scene scene = scene_quad(NULL);
     otx_camera camera = {
-        {0.0, 0.0, 4.0}, {0.0, 0.0, -4.0}, OTX_CAMERA_FOV, 0.49};
+        {0.0, 0.0, 4.0}, {0.0, 0.0, -4.0}, OTX_CAMERA_FOV, 0.49, OTX_UP_Y};
     const otx_render_options options = facing_options(&camera, 32);
     otx_image image = render(run, &scene, &options);
 
@@ -189,7 +193,7 @@ bad_options_are_refused(void **state)
     otx_run *run = test_run_create();
     const otx_scene scene = scene_quad(NULL);
     const otx_scene empty = {0};
-    const otx_camera blind = {{1, 2, 3}, {1, 2, 3}, 1.0, 0.0};
+    const otx_camera blind = {{1, 2, 3}, {1, 2, 3}, 1.0, 0.0, OTX_UP_Y};
     otx_render_options options = otx_render_defaults();
 
     (void)state;

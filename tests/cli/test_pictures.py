@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Pictures and previews: the same flags give the same picture, and the model
+fills it."""
+
+import struct
+import zlib
+
+from program import CAGES, EXEMPLARS, ProgramTest, main
+
+CAGE = CAGES / "plane.obj"
+EXEMPLAR = EXEMPLARS / "gravel_tile.png"
+QUICK = ("--level", "0", "--scale", "4", "-q")
+SMALL = ("--size", "64x48", "--samples", "1")
+
+
+def png(path):
+    """Rows of pixels, top first, of an 8-bit PNG of R, G, B and perhaps A."""
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            width, height, bits, colour = struct.unpack(">IIBB", body[:10])
+        elif kind == b"IDAT":
+            packed += body
+        at += 12 + size
+    assert bits == 8 and colour in (2, 6)
+    step, raw = 3 if colour == 2 else 4, zlib.decompress(packed)
+    rows, before = [], bytes(width * step)
+    for y in range(height):
+        line = raw[y * (width * step + 1):(y + 1) * (width * step + 1)]
+        before = unfilter(line[0], line[1:], before, step)
+        rows.append([tuple(before[i:i + 3]) for i in range(0, len(before), step)])
+    return rows
+
+
+def unfilter(kind, line, above, step):
+    out = bytearray(line)
+    for i in range(len(out)):
+        a = out[i - step] if i >= step else 0
+        b, c = above[i], above[i - step] if i >= step else 0
+        p = a + b - c
+        paeth = min((abs(p - v), n, v) for n, v in enumerate((a, b, c)))[2]
+        out[i] = (out[i] + (0, a, b, (a + b) // 2, paeth)[kind]) & 255
+    return bytes(out)
+
+
+class Pictures(ProgramTest):
+    def map_with(self, name, *more, exit_code=0):
+        result = self.run_program(
+            "map", CAGE, EXEMPLAR, "-o", self.folder / f"{name}.obj", *QUICK,
+            *more)
+        self.assert_exit(result, exit_code)
+        return result.stderr
+
+    def test_previews_take_what_pictures_take(self):
+        """The preview of a mapping is the picture of the mapping."""
+        for more in ((), ("--camera", "front", "--turn", "20"), ("--up", "z"),
+                     ("--unlit", "--no-shadows"),
+                     ("--camera", "0,0,9,0,0,0,20")):
+            with self.subTest(more):
+                self.map_with(
+                    "a", "--preview", self.folder / "p.png", "--save",
+                    self.folder / "a.osdtex", *SMALL, *more)
+                result = self.run_program(
+                    "render", "--from", self.folder / "a.osdtex", "-o",
+                    self.folder / "r.png", "-q", *SMALL, *more)
+                self.assert_exit(result, 0)
+                self.assertEqual(
+                    png(self.folder / "p.png"), png(self.folder / "r.png"))
+
+    def test_bakes_do_too(self):
+        result = self.run_program(
+            "bake", CAGE, EXEMPLAR, "-o", self.folder / "b.obj", *QUICK,
+            "--resolution", "32", "--preview", self.folder / "b.png", "--size",
+            "40x30", "--samples", "1")
+        self.assert_exit(result, 0)
+        rows = png(self.folder / "b.png")
+        self.assertEqual((len(rows), len(rows[0])), (30, 40))
+
+    def test_the_model_fills_the_picture(self):
+        """The plane from the front: 94 % of the height, which is the less."""
+        self.map_with(
+            "a", "--preview", self.folder / "p.png", "--camera", "front",
+            "--show", "uv", "--size", "160x100", "--samples", "1")
+        rows = png(self.folder / "p.png")
+        seen = [y for y, row in enumerate(rows)
+                if any(max(p) - min(p) > 8 for p in row)]
+        self.assertGreaterEqual(len(seen), 90)
+        self.assertGreater(seen[0], 0)
+        self.assertLess(seen[-1], 99)
+
+    def test_smooth_walls_have_no_bands(self):
+        """Neighbours of a row differ by one step here and there, not by rows."""
+        self.map_with(
+            "a", "--preview", self.folder / "p.png", "--size", "160x120",
+            "--samples", "1", "--camera", "0,0,400,0,0,0,30")
+        rows = png(self.folder / "p.png")
+        mixed = sum(len({p[0] for p in row[:40]}) > 1 for row in rows)
+        self.assertGreater(mixed, 100)
+
+    def test_what_has_no_use_is_said(self):
+        said = self.map_with("a", "--camera", "front")
+        self.assertEqual(said, "")
+        result = self.run_program(
+            "map", CAGE, EXEMPLAR, "-o", self.folder / "c.obj", *QUICK[:-1],
+            "--camera", "front")
+        self.assert_exit(result, 0)
+        self.assertIn("--camera is for a picture", result.stderr)
+
+    def test_bad_words_are_refused(self):
+        for more in (("--up", "x"), ("--size", "0x9"), ("--camera", "1,2")):
+            with self.subTest(more):
+                said = self.map_with(
+                    "a", "--preview", self.folder / "p.png", *more, exit_code=1)
+                self.assertIn(more[0], said)
+                self.assertFalse((self.folder / "p.png").exists())
+
+
+if __name__ == "__main__":
+    main()
