@@ -47,6 +47,11 @@ class ProgramTest(unittest.TestCase):
         return self.run_program(
             "map", cage, exemplar, "-o", self.folder / name, *more, **keywords)
 
+    def await_first_line(self, job):
+        """Until the program has something to say; from then on it catches
+        signals."""
+        return job.stderr.readline()
+
     def need(self, *programs, modules=()):
         """Skips where a program or a Python module is missing."""
         for name in programs:

@@ -224,6 +224,7 @@ class Signals(ProgramTest):
             [PROGRAM, "map", CAGES / "creature.obj", EXEMPLAR, "-o",
              self.folder / "out.obj", "--level", "4"],
             stderr=subprocess.PIPE, env=ENVIRONMENT)
+        self.await_first_line(job)
         time.sleep(seconds)
         job.send_signal(number)
         sent = time.monotonic()

@@ -29,11 +29,12 @@ def cpu_seconds(process):
 
 class Stop(ProgramTest):
     def stop(self, number, after, *command):
-        """Sends the signal so many seconds after the start. False when the job
-        was over before."""
+        """Sends the signal so many seconds after the first words. False when
+        the job was over before."""
         process = subprocess.Popen(
             [PROGRAM, *map(str, command)], stderr=subprocess.PIPE, text=True,
             env=ENVIRONMENT)
+        self.await_first_line(process)
         try:
             process.wait(after)
             return False
@@ -91,6 +92,7 @@ class Stop(ProgramTest):
             [PROGRAM, "map", CAGES / "jack.obj", GRAVEL, "--level", "8", "-o",
              self.folder / "out.obj"], stderr=subprocess.PIPE, text=True,
             env=ENVIRONMENT)
+        self.await_first_line(process)
         time.sleep(1)
         self.end(process, signal.SIGTERM, times=2)
         self.assertEqual(list(self.folder.iterdir()), [])
