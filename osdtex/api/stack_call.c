@@ -20,7 +20,7 @@ typedef struct work
     otx_exemplar exemplars[OSDTEX_STACK_KEYS_MAX]; /* of one size */
     otx_stack_key keys[OSDTEX_STACK_KEYS_MAX];
     otx_feature_mask masks[OSDTEX_STACK_KEYS_MAX];
-    otx_feature feature;
+    otx_feature_kind feature;
     otx_stack stack;
 } work;
 
@@ -136,7 +136,7 @@ is_given(const work *w, int32_t k)
 /* Finds one kind of feature in all pictures without a mask; how clear it is. */
 static otx_status
 find_masks(
-    work *w, otx_feature feature, otx_feature_mask *masks, double *clarity)
+    work *w, otx_feature_kind feature, otx_feature_mask *masks, double *clarity)
 {
     *clarity = 0.0;
     for (int32_t k = 0; k < w->count; ++k)

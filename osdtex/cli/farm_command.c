@@ -44,11 +44,12 @@ folder_length(const char *path)
 
 /* Where this program is: what the farm runs unless --program says else. */
 static const char *
-program_path(const otx_flag_values *values, char own[OTX_JOB_PATH_BYTES])
+program_path(const otx_flag_values *values, char own[OTX_FARM_JOB_PATH_BYTES])
 {
     const char *given = values->text[OTX_FLAG_PROGRAM];
     const ssize_t length =
-        given ? 0 : readlink("/proc/self/exe", own, OTX_JOB_PATH_BYTES - 1);
+        given ? 0
+              : readlink("/proc/self/exe", own, OTX_FARM_JOB_PATH_BYTES - 1);
 
     if (given || length <= 0)
         return given ? given : "osdtex";
@@ -58,10 +59,10 @@ program_path(const otx_flag_values *values, char own[OTX_JOB_PATH_BYTES])
 
 /* The job, or an exit code. */
 static int
-read_job(const otx_flag_values *values, otx_job *out)
+read_job(const otx_flag_values *values, otx_farm_job *out)
 {
     const char *path = values->operands[0];
-    char error[OTX_JOB_ERROR_BYTES];
+    char error[OTX_FARM_JOB_ERROR_BYTES];
 
     if (access(path, R_OK) != 0)
     {
@@ -69,7 +70,7 @@ read_job(const otx_flag_values *values, otx_job *out)
             "%s: the file cannot be read: %s", path, strerror(errno));
         return OTX_EXIT_IO;
     }
-    if (otx_job_read(path, out, error))
+    if (otx_farm_job_read(path, out, error))
         return OTX_EXIT_OK;
     otx_session_refuse("%s", error);
     return OTX_EXIT_DATA;
@@ -79,7 +80,7 @@ read_job(const otx_flag_values *values, otx_job *out)
 static bool
 may_replace(const otx_engine *engine, const char *folder)
 {
-    char path[OTX_JOB_PATH_BYTES];
+    char path[OTX_FARM_JOB_PATH_BYTES];
 
     for (int i = 0; i < engine->file_count; ++i)
     {
@@ -98,10 +99,10 @@ may_replace(const otx_engine *engine, const char *folder)
 /* The engine's files, as one set. */
 static osdtex_status
 write_files(
-    otx_session *session, const otx_engine *engine, const otx_job *job,
+    otx_session *session, const otx_engine *engine, const otx_farm_job *job,
     const char *program, const char *folder)
 {
-    char path[OTX_JOB_PATH_BYTES];
+    char path[OTX_FARM_JOB_PATH_BYTES];
     const char *temporary;
 
     for (int i = 0; i < engine->file_count; ++i)
@@ -122,7 +123,7 @@ write_files(
 }
 
 static void
-say_how(const otx_engine *engine, const otx_job *job, const char *folder)
+say_how(const otx_engine *engine, const otx_farm_job *job, const char *folder)
 {
     printf("%d tasks: ", job->task_count);
     for (const char *c = engine->submit; *c; ++c)
@@ -140,10 +141,11 @@ say_how(const otx_engine *engine, const otx_job *job, const char *folder)
 
 static int
 plan(
-    const otx_flag_values *values, const otx_engine *engine, const otx_job *job)
+    const otx_flag_values *values, const otx_engine *engine,
+    const otx_farm_job *job)
 {
     const char *output = values->text[OTX_FLAG_OUTPUT];
-    char own[OTX_JOB_PATH_BYTES], error[OTX_JOB_ERROR_BYTES];
+    char own[OTX_FARM_JOB_PATH_BYTES], error[OTX_FARM_JOB_ERROR_BYTES];
     const char *program = program_path(values, own);
     osdtex_status status;
     otx_session session;
@@ -175,7 +177,7 @@ otx_plan_command_run(const otx_flag_values *values)
 {
     const char *name = values->text[OTX_FLAG_ENGINE];
     const otx_engine *engine = otx_engine_find(name ? name : "make");
-    otx_job job;
+    otx_farm_job job;
     int code;
 
     if (!engine)
@@ -190,14 +192,14 @@ otx_plan_command_run(const otx_flag_values *values)
     if (code != OTX_EXIT_OK)
         return code;
     code = plan(values, engine, &job);
-    otx_job_free(&job);
+    otx_farm_job_free(&job);
     return code;
 }
 
 /* ---------------------------------------------------------------------- */
 
 static int
-run_task(const otx_flag_values *values, const otx_job *job)
+run_task(const otx_flag_values *values, const otx_farm_job *job)
 {
     const char *text = values->text[OTX_FLAG_TASK];
     otx_task task;
@@ -226,12 +228,12 @@ run_task(const otx_flag_values *values, const otx_job *job)
 int
 otx_run_command_run(const otx_flag_values *values)
 {
-    otx_job job;
+    otx_farm_job job;
     int code = read_job(values, &job);
 
     if (code != OTX_EXIT_OK)
         return code;
     code = run_task(values, &job);
-    otx_job_free(&job);
+    otx_farm_job_free(&job);
     return code;
 }

@@ -1,7 +1,7 @@
 /* map_command.c -- osdtex map and osdtex bake: a cage and an exemplar in, a
  * textured model out, or the cage with textures. */
 #include "cli/guard.h"
-#include "cli/map_request.h"
+#include "cli/map_flags.h"
 #include "cli/saved_files.h"
 #include "cli/session.h"
 #include "cli/up_to_date.h"
@@ -12,7 +12,7 @@
 typedef struct job
 {
     otx_flag_values values; /* with the files of what flags name */
-    otx_map_request request;
+    otx_map_flags request;
     bool has_hash;
     char hash[OSDTEX_HASH_BYTES];
 
@@ -28,7 +28,7 @@ typedef struct job
 static osdtex_status
 read_inputs(otx_session *session, job *j)
 {
-    otx_map_request *r = &j->request;
+    otx_map_flags *r = &j->request;
     osdtex_status status;
 
     status = osdtex_cage_read(
@@ -50,7 +50,7 @@ read_inputs(otx_session *session, job *j)
 static osdtex_status
 look_ahead(otx_session *session, job *j)
 {
-    otx_map_request *r = &j->request;
+    otx_map_flags *r = &j->request;
     osdtex_job asked = osdtex_job_none();
     osdtex_status status;
 
@@ -113,7 +113,7 @@ render_preview(otx_session *session, job *j)
 static osdtex_status
 write_models(otx_session *session, const job *j, const char *const *comments)
 {
-    const otx_map_request *r = &j->request;
+    const otx_map_flags *r = &j->request;
     osdtex_write_options options = osdtex_write_options_default();
     osdtex_bake_options bake = r->bake_options;
 
@@ -155,7 +155,7 @@ write_outputs(otx_session *session, const job *j)
 static void
 say_bake(const job *j)
 {
-    const otx_map_request *r = &j->request;
+    const otx_map_flags *r = &j->request;
 
     otx_session_print(
         "baked into    %s, %s and their textures of %d texels\n"
@@ -169,7 +169,7 @@ say_bake(const job *j)
 static void
 say_outputs(const job *j)
 {
-    const otx_map_request *r = &j->request;
+    const otx_map_flags *r = &j->request;
 
     if (r->maps)
         otx_session_print(
@@ -192,7 +192,7 @@ say_outputs(const job *j)
 static void
 say_plan(const job *j)
 {
-    const otx_map_request *r = &j->request;
+    const otx_map_flags *r = &j->request;
     const osdtex_forecast *f = &j->forecast;
     const osdtex_exemplar_info *e = osdtex_exemplar_describe(j->exemplar);
     const double kept =
@@ -229,7 +229,7 @@ say_saved_plan(const job *j)
 static void
 say_done(otx_session *session, const job *j)
 {
-    const otx_map_request *r = &j->request;
+    const otx_map_flags *r = &j->request;
     const osdtex_mapping_info *mapping = osdtex_mapping_describe(j->mapping);
 
     if (r->maps)
@@ -316,7 +316,7 @@ check_outputs(otx_session *session, const job *j)
     otx_path_list outputs = {0};
     osdtex_status status;
 
-    otx_map_request_outputs(&j->request, &outputs);
+    otx_map_flags_outputs(&j->request, &outputs);
     status = otx_guard_check(session, j->request.values, &outputs);
     otx_path_list_free(&outputs);
     return status;
@@ -348,7 +348,7 @@ prepare(otx_session *session, job *j)
         status = otx_also_flags_find(
             session->context, &j->values.inputs, &j->request.also);
     if (status == OSDTEX_OK && j->values.inputs.saved.path &&
-        !otx_map_request_name(&j->request))
+        !otx_map_flags_name(&j->request))
         status = OSDTEX_ERROR_ARGUMENT;
     if (status == OSDTEX_OK)
         status = check_outputs(session, j);
@@ -361,7 +361,7 @@ prepare(otx_session *session, job *j)
  * texture of pastes, healing in previews and what is saved, whose loss in UVs
  * the library tells, and which way is up in previews. */
 static bool
-is_for_bakes_only(const otx_map_request *r, int id)
+is_for_bakes_only(const otx_map_flags *r, int id)
 {
     return otx_flag_at((otx_flag_id)id)->group == OTX_FLAG_GROUP_BAKE &&
            id != OTX_FLAG_RESOLUTION && id != OTX_FLAG_HEAL &&
@@ -370,7 +370,7 @@ is_for_bakes_only(const otx_map_request *r, int id)
 
 /* Flags of the bake where nothing is baked, and of pictures without one. */
 static void
-say_unused(otx_session *session, const otx_map_request *r)
+say_unused(otx_session *session, const otx_map_flags *r)
 {
     for (int id = 0; id < OTX_FLAG_COUNT; ++id)
     {
@@ -399,14 +399,14 @@ run(const otx_flag_values *values, bool bake_only)
     otx_session session;
     job j = {.values = *values};
 
-    if (!otx_map_request_parse(&j.values, bake_only, &j.request))
+    if (!otx_map_flags_parse(&j.values, bake_only, &j.request))
         return OTX_EXIT_USAGE;
     if (!otx_session_begin(&session, values))
         return session.exit_code;
     say_unused(&session, &j.request);
     status = prepare(&session, &j);
     if (status == OSDTEX_OK && values->text[OTX_FLAG_UPDATE] && j.has_hash &&
-        otx_map_request_is_done(&j.request, j.hash))
+        otx_map_flags_is_done(&j.request, j.hash))
         otx_session_say(
             &session, "%s is up to date",
             j.request.maps ? j.request.obj : j.request.cage_obj);

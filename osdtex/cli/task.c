@@ -7,9 +7,9 @@
 #include <string.h>
 
 static bool
-copy_words(const otx_job *job, int index, otx_task *task)
+copy_words(const otx_farm_job *job, int index, otx_task *task)
 {
-    json_t *words = otx_job_words(job, index);
+    json_t *words = otx_farm_job_words(job, index);
     const size_t count = json_array_size(words);
     bool whole = true;
 
@@ -30,9 +30,10 @@ copy_words(const otx_job *job, int index, otx_task *task)
 }
 
 bool
-otx_task_parse(const otx_job *job, int index, otx_task *out)
+otx_task_parse(const otx_farm_job *job, int index, otx_task *out)
 {
-    *out = (otx_task){.command = otx_command_find(otx_job_command(job, index))};
+    *out = (otx_task){
+        .command = otx_command_find(otx_farm_job_command(job, index))};
     if (!copy_words(job, index, out))
     {
         otx_session_refuse("memory is out");

@@ -3,7 +3,7 @@
 #define OTX_CLI_TASK_H
 
 #include "cli/command.h"
-#include "farm/job.h"
+#include "farm/farm_job.h"
 
 typedef struct otx_task
 {
@@ -15,7 +15,7 @@ typedef struct otx_task
 
 /* Takes the words of a task apart, as with --update before them: what is done
  * is not done again. False after saying what is wrong; free it in any case. */
-bool otx_task_parse(const otx_job *job, int index, otx_task *out);
+bool otx_task_parse(const otx_farm_job *job, int index, otx_task *out);
 void otx_task_free(otx_task *task);
 
 #endif

@@ -2,7 +2,7 @@
 #include "cli/task_files.h"
 
 #include "cli/guard.h"
-#include "cli/map_request.h"
+#include "cli/map_flags.h"
 #include "cli/saved_files.h"
 #include "cli/task.h"
 
@@ -30,7 +30,7 @@ typedef struct task_files
 /* Says nothing: a farm may hold files that this machine does not. */
 static osdtex_status
 look_for_files(
-    osdtex_context *context, otx_flag_values *values, otx_map_request *r)
+    osdtex_context *context, otx_flag_values *values, otx_map_flags *r)
 {
     otx_session silent = {.context = context, .values = values};
     osdtex_status status;
@@ -45,7 +45,7 @@ look_for_files(
     if (status == OSDTEX_ERROR_ARGUMENT)
         return status;
     otx_also_flags_find(context, &values->inputs, &r->also);
-    return values->inputs.saved.path && !otx_map_request_name(r)
+    return values->inputs.saved.path && !otx_map_flags_name(r)
                ? OSDTEX_ERROR_ARGUMENT
                : OSDTEX_OK;
 }
@@ -53,16 +53,15 @@ look_for_files(
 /* Of a tile only its own textures; the texts are like those of other tiles. */
 static bool
 list_files(
-    osdtex_context *context, otx_task *task, otx_map_request *r,
-    task_files *out)
+    osdtex_context *context, otx_task *task, otx_map_flags *r, task_files *out)
 {
     otx_flag_values *values = &task->values;
-    bool fine = otx_map_request_parse(
+    bool fine = otx_map_flags_parse(
         values, strcmp(task->command->name, "bake") == 0, r);
 
     fine = fine && look_for_files(context, values, r) == OSDTEX_OK;
     if (fine)
-        otx_map_request_outputs(r, &out->outputs);
+        otx_map_flags_outputs(r, &out->outputs);
     fine = fine &&
            otx_guard_named(context, values, false, &out->inputs) == OSDTEX_OK;
     out->is_shared = fine && r->bake_options.udim != 0;
@@ -74,9 +73,10 @@ list_files(
 
 static bool
 list_task(
-    osdtex_context *context, const otx_job *job, int index, task_files *out)
+    osdtex_context *context, const otx_farm_job *job, int index,
+    task_files *out)
 {
-    otx_map_request *request = calloc(1, sizeof *request);
+    otx_map_flags *request = calloc(1, sizeof *request);
     otx_task task;
     bool fine = request && otx_task_parse(job, index, &task);
 
@@ -88,7 +88,7 @@ list_task(
     if (!fine)
         otx_session_refuse(
             "task %d of the job, '%s', is wrong", index,
-            otx_job_task_name(job, index));
+            otx_farm_job_task_name(job, index));
     return fine;
 }
 
@@ -151,7 +151,7 @@ find_clash(const use *list, size_t count, use out[2])
 }
 
 static void
-refuse(const otx_job *job, const use pair[2])
+refuse(const otx_farm_job *job, const use pair[2])
 {
     const use *a = &pair[0], *b = &pair[1];
 
@@ -159,13 +159,13 @@ refuse(const otx_job *job, const use pair[2])
         otx_session_refuse(
             "task %d ('%s') reads '%s', which task %d ('%s') writes, and a "
             "farm runs tasks in any order; make them two jobs",
-            b->task, otx_job_task_name(job, b->task), b->path->name, a->task,
-            otx_job_task_name(job, a->task));
+            b->task, otx_farm_job_task_name(job, b->task), b->path->name,
+            a->task, otx_farm_job_task_name(job, a->task));
     else
         otx_session_refuse(
             "tasks %d ('%s') and %d ('%s') would both write '%s'", a->task,
-            otx_job_task_name(job, a->task), b->task,
-            otx_job_task_name(job, b->task), b->path->name);
+            otx_farm_job_task_name(job, a->task), b->task,
+            otx_farm_job_task_name(job, b->task), b->path->name);
 }
 
 static size_t
@@ -179,7 +179,7 @@ put_uses(
 }
 
 static bool
-are_apart(const otx_job *job, const task_files *tasks)
+are_apart(const otx_farm_job *job, const task_files *tasks)
 {
     size_t count = 0;
     use *list, found[2] = {{0}};
@@ -207,7 +207,7 @@ are_apart(const otx_job *job, const task_files *tasks)
 
 /* Names in a job are seen from its folder. */
 bool
-otx_task_files_are_apart(const otx_job *job)
+otx_task_files_are_apart(const otx_farm_job *job)
 {
     const int here = open(".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     task_files *tasks = calloc((size_t)job->task_count, sizeof *tasks);

@@ -53,7 +53,7 @@ put_quoted_xml(FILE *out, const char *text)
 }
 
 static void
-put_make(FILE *out, const otx_job *job, const char *program)
+put_make(FILE *out, const otx_farm_job *job, const char *program)
 {
     fprintf(out, "# %s: make -k -j N -f Makefile\nTASKS :=", job->name);
     for (int i = 0; i < job->task_count; ++i)
@@ -61,7 +61,7 @@ put_make(FILE *out, const otx_job *job, const char *program)
     fprintf(out, "\n\n.PHONY: all $(TASKS)\nall: $(TASKS)\n");
     for (int i = 0; i < job->task_count; ++i)
     {
-        fprintf(out, "\n# %s\ntask-%d:\n\t", otx_job_task_name(job, i), i);
+        fprintf(out, "\n# %s\ntask-%d:\n\t", otx_farm_job_task_name(job, i), i);
         put_quoted(out, program, "$$");
         fputs(" run ", out);
         put_quoted(out, job->path, "$$");
@@ -71,7 +71,7 @@ put_make(FILE *out, const otx_job *job, const char *program)
 
 /* Slurm says through the environment how many threads a task may have. */
 static void
-put_slurm(FILE *out, const otx_job *job, const char *program)
+put_slurm(FILE *out, const otx_farm_job *job, const char *program)
 {
     fprintf(
         out,
@@ -90,7 +90,7 @@ put_slurm(FILE *out, const otx_job *job, const char *program)
 /* A job specification as cjsl-1.15.dtd has it. Commands go through a shell;
  * names have three characters at least; one retry is all that Cuebot grants. */
 static void
-put_opencue(FILE *out, const otx_job *job, const char *program)
+put_opencue(FILE *out, const otx_farm_job *job, const char *program)
 {
     fprintf(
         out,
@@ -116,7 +116,7 @@ put_opencue(FILE *out, const otx_job *job, const char *program)
 }
 
 static void
-put_deadline_job(FILE *out, const otx_job *job, const char *program)
+put_deadline_job(FILE *out, const otx_farm_job *job, const char *program)
 {
     (void)program;
     fprintf(
@@ -128,7 +128,7 @@ put_deadline_job(FILE *out, const otx_job *job, const char *program)
 }
 
 static void
-put_deadline_plugin(FILE *out, const otx_job *job, const char *program)
+put_deadline_plugin(FILE *out, const otx_farm_job *job, const char *program)
 {
     fprintf(
         out,
@@ -217,8 +217,8 @@ otx_engine_find(const char *name)
 
 bool
 otx_engine_check(
-    const otx_engine *engine, const otx_job *job, const char *program,
-    char error[OTX_JOB_ERROR_BYTES])
+    const otx_engine *engine, const otx_farm_job *job, const char *program,
+    char error[OTX_FARM_JOB_ERROR_BYTES])
 {
     const char *const names[] = {job->path, program};
 
@@ -229,7 +229,7 @@ otx_engine_check(
         if (!why)
             continue;
         snprintf(
-            error, OTX_JOB_ERROR_BYTES,
+            error, OTX_FARM_JOB_ERROR_BYTES,
             "%s cannot be told of '%.300s', the %s: %s; give it another name",
             engine->name, names[i], i == 0 ? "job" : "program", why);
         return false;
@@ -240,10 +240,10 @@ otx_engine_check(
 void
 otx_engine_path(
     const otx_engine *engine, int index, const char *folder,
-    char path[OTX_JOB_PATH_BYTES])
+    char path[OTX_FARM_JOB_PATH_BYTES])
 {
     snprintf(
-        path, OTX_JOB_PATH_BYTES, "%.3900s/%s", folder,
+        path, OTX_FARM_JOB_PATH_BYTES, "%.3900s/%s", folder,
         engine->files[index].name);
 }
 
@@ -264,7 +264,7 @@ otx_engine_may_replace(const otx_engine *engine, int index, const char *path)
 
 bool
 otx_engine_write(
-    const otx_engine *engine, int index, const otx_job *job,
+    const otx_engine *engine, int index, const otx_farm_job *job,
     const char *program, const char *path)
 {
     FILE *out = fopen(path, "w");

@@ -183,7 +183,7 @@ find_joints(otx_run *run, plane *p, int32_t radius, otx_feature_mask *out)
 
 otx_status
 otx_feature_mask_find(
-    otx_run *run, const otx_image *lab, otx_feature feature,
+    otx_run *run, const otx_image *lab, otx_feature_kind feature,
     otx_feature_mask *out)
 {
     const int64_t texels = (int64_t)lab->width * lab->height;

@@ -9,11 +9,11 @@
 
 #include "image/image.h"
 
-typedef enum otx_feature
+typedef enum otx_feature_kind
 {
     OTX_FEATURE_SPOTS, /* the minority on one side of a lightness */
     OTX_FEATURE_JOINTS /* narrow, by a black or a white top hat */
-} otx_feature;
+} otx_feature_kind;
 
 /* What a detector made of a picture. */
 typedef struct otx_feature_mask
@@ -27,7 +27,7 @@ typedef struct otx_feature_mask
 /* Finds a feature in CIELAB, in run->arena. A picture of one lightness gives an
  * empty mask. MEMORY. */
 otx_status otx_feature_mask_find(
-    otx_run *run, const otx_image *lab, otx_feature feature,
+    otx_run *run, const otx_image *lab, otx_feature_kind feature,
     otx_feature_mask *out);
 
 /* Fills in islands and holes of fewer than `least` texels that hang together by

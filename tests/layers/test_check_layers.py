@@ -86,6 +86,13 @@ class Tree(unittest.TestCase):
         self.put("api/vec.c", "typedef int vec;\n")
         self.refused("the name is taken by")
 
+    def test_two_types_of_one_name(self):
+        self.put("math/edge.h", "typedef struct otx_edge\n{\n    int a;\n"
+                                "} otx_edge;\n")
+        self.put("api/rim.h", "typedef enum otx_edge\n{\n    OTX_RIM\n"
+                              "} otx_edge;\n")
+        self.refused("the type otx_edge is in api/rim.h, too")
+
     def test_unknown_room(self):
         self.put("attic/old.c", "typedef int old;\n")
         self.refused("not in LAYERS")

@@ -72,7 +72,7 @@ column_distance(
 
 /* From where to where a ring is to show its course. */
 static void
-close_ring(const otx_material *m, const columns *c, otx_strip *strip)
+close_ring(const otx_material *m, const columns *c, otx_course_strip *strip)
 {
     const double texel = m->courses.period / c->count;
     double best = INFINITY;
@@ -154,7 +154,7 @@ static double
 rounds_before(const otx_strips *s, int32_t face)
 {
     const otx_level *leaf = s->leaf.level;
-    const otx_strip *strip = &s->strips[s->of[face]];
+    const otx_course_strip *strip = &s->strips[s->of[face]];
     double sum = 0.0;
 
     if (!(strip->length > 0.0))
@@ -171,7 +171,7 @@ static void
 write_face(otx_material *m, const otx_strips *s, int32_t face)
 {
     const otx_level *leaf = s->leaf.level;
-    const otx_strip *strip = &s->strips[s->of[face]];
+    const otx_course_strip *strip = &s->strips[s->of[face]];
     const double shift = strip->shift - rounds_before(s, face) * strip->closing;
 
     for (int32_t i = leaf->face_first[face]; i < leaf->face_first[face + 1];

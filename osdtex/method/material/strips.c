@@ -122,7 +122,7 @@ flood(otx_strips *s, int32_t seed, int32_t *queue)
             queue[tail++] = other;
         }
     }
-    s->strips[s->count++] = (otx_strip){.faces = tail};
+    s->strips[s->count++] = (otx_course_strip){.faces = tail};
 }
 
 /* -- contacts ------------------------------------------------------------ */
@@ -307,7 +307,7 @@ allocate(otx_strips *s)
     s->rise = OTX_NEW(scratch, otx_vec2, leaf->face_count);
     s->edges = OTX_NEW(scratch, int8_t, leaf->edge_count);
     s->along = OTX_ZNEW(scratch, double, leaf->corner_count);
-    s->strips = OTX_NEW(scratch, otx_strip, leaf->face_count);
+    s->strips = OTX_NEW(scratch, otx_course_strip, leaf->face_count);
     s->contacts = OTX_NEW(scratch, otx_strip_contact, leaf->edge_count);
     return s->of && s->sense && s->course && s->rise && s->edges && s->along &&
                    s->strips && s->contacts

@@ -9,7 +9,7 @@
 
 #include "method/material/coursing.h"
 
-typedef struct otx_strip
+typedef struct otx_course_strip
 {
     int32_t faces;
     int32_t course; /* of the exemplar that it shows */
@@ -18,7 +18,7 @@ typedef struct otx_strip
     double closing; /* texels of the exemplar after which a ring is closed */
     double start;   /* texel with which it begins anew each time */
     double shift;   /* texels that `along` is moved by */
-} otx_strip;
+} otx_course_strip;
 
 /* Two strips that lie side by side, a < b. */
 typedef struct otx_strip_contact
@@ -36,7 +36,7 @@ typedef struct otx_strips
     const otx_material *m;
     otx_connection leaf;
     int32_t count;
-    otx_strip *strips;
+    otx_course_strip *strips;
     int32_t *of;     /* [leaf face_count] strip, -1 none */
     int8_t *sense;   /* [leaf face_count] -1: the coordinate across falls where
                       * its strip's rises */

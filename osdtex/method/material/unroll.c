@@ -307,7 +307,7 @@ join_corners(nodes *n, int32_t a, int32_t b, double ahead)
 static double
 closing_of(const otx_strips *s, const otx_strip_tears *t, int32_t tear)
 {
-    const otx_strip *strip = &s->strips[s->of[t->tears[tear].low]];
+    const otx_course_strip *strip = &s->strips[s->of[t->tears[tear].low]];
     const double period = s->m->courses.period;
 
     if (strip->loops == 1)

@@ -13,7 +13,8 @@ static char *
 told(const char *engine, const char *path, int tasks, const char *name)
 {
     const otx_engine *found = otx_engine_find(engine);
-    otx_job job = {.name = name, .task_count = tasks, .root = json_object()};
+    otx_farm_job job = {
+        .name = name, .task_count = tasks, .root = json_object()};
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
@@ -23,7 +24,7 @@ told(const char *engine, const char *path, int tasks, const char *name)
     snprintf(job.path, sizeof job.path, "%s", path);
     found->files[found->file_count - 1].put(out, &job, "printf");
     assert_int_equal(fclose(out), 0);
-    otx_job_free(&job);
+    otx_farm_job_free(&job);
     return text;
 }
 

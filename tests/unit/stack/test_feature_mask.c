@@ -112,7 +112,8 @@ nothing_is_found_in_one_colour(void **state)
     for (int f = 0; f < 2; ++f)
     {
         assert_int_equal(
-            otx_feature_mask_find(run, &lab, (otx_feature)f, &mask), OSDTEX_OK);
+            otx_feature_mask_find(run, &lab, (otx_feature_kind)f, &mask),
+            OSDTEX_OK);
         assert_float_equal(mask.share, 0.0, 0.0);
         assert_float_equal(mask.clarity, 0.0, 0.0);
     }

@@ -1,6 +1,6 @@
-/* map_request.c -- what osdtex map and osdtex bake are asked for: options, and
+/* map_flags.c -- what osdtex map and osdtex bake are asked for: options, and
  * the names of what is written. */
-#include "cli/map_request.h"
+#include "cli/map_flags.h"
 
 #include "cli/bake_flags.h"
 #include "cli/bake_outputs.h"
@@ -28,7 +28,7 @@ name_beside(const char *obj, const char *suffix, char out[OTX_MAP_PATH_BYTES])
 
 /* What textures are: PNG for the web, unless --to names their space. */
 static const char *
-texture_extension(const otx_map_request *r)
+texture_extension(const otx_map_flags *r)
 {
     return r->exemplar_options.receiver == OSDTEX_RECEIVER_WEB &&
                    !r->exemplar_options.to
@@ -38,7 +38,7 @@ texture_extension(const otx_map_request *r)
 
 /* NAME.exr, or of several exemplars NAME_1.exr and so on. */
 bool
-otx_map_request_name(otx_map_request *r)
+otx_map_flags_name(otx_map_flags *r)
 {
     const char *extension = texture_extension(r);
     char suffix[32];
@@ -63,7 +63,7 @@ otx_map_request_name(otx_map_request *r)
 /* Bit i: exemplar k has a map of kind i: those that flags give, else, of the
  * same picture, those of the saved mapping. */
 static uint32_t
-kinds_of(const otx_map_request *r, int k)
+kinds_of(const otx_map_flags *r, int k)
 {
     const osdtex_material_info *set;
     uint32_t kinds = 0;
@@ -85,7 +85,7 @@ kinds_of(const otx_map_request *r, int k)
  * no such map. */
 static bool
 name_map(
-    const otx_map_request *r, int k, osdtex_map_kind kind,
+    const otx_map_flags *r, int k, osdtex_map_kind kind,
     char out[OTX_MAP_PATH_BYTES])
 {
     const char *color = r->exrs[k];
@@ -100,7 +100,7 @@ name_map(
 /* NAME.mtl and NAME.exr beside NAME.obj, NAME_cage.obj and NAME_cage.mtl of a
  * bake; what readers would not take becomes `_` there. */
 static bool
-name_outputs(otx_map_request *r)
+name_outputs(otx_map_flags *r)
 {
     const char *path = r->values->text[OTX_FLAG_OUTPUT];
     const size_t length = path ? strlen(path) : 0;
@@ -118,7 +118,7 @@ name_outputs(otx_map_request *r)
     name = strrchr(r->mtl, '/');
     osdtex_outputs_word(name ? name + 1 : r->mtl);
     memcpy(r->mtl + length - 4, ".mtl", 5);
-    if (!otx_map_request_name(r))
+    if (!otx_map_flags_name(r))
         return false;
     if (name_beside(r->mtl, "_cage.obj", r->cage_obj) &&
         name_beside(r->mtl, "_cage.mtl", r->cage_mtl))
@@ -135,7 +135,7 @@ is_picture(const char *path)
 }
 
 static bool
-parse_numbers(otx_map_request *r)
+parse_numbers(otx_map_flags *r)
 {
     const char *level = r->values->text[OTX_FLAG_LEVEL];
     const char *seed = r->values->text[OTX_FLAG_SEED];
@@ -164,7 +164,7 @@ parse_numbers(otx_map_request *r)
 }
 
 static bool
-parse_heal(otx_map_request *r)
+parse_heal(otx_map_flags *r)
 {
     const char *text = r->values->text[OTX_FLAG_HEAL];
     double *heal = &r->map_options.heal;
@@ -186,7 +186,7 @@ parse_heal(otx_map_request *r)
 /* --tile-level is a setting of the method, and the level of the surface where
  * none is given. */
 static bool
-parse_tile_level(otx_map_request *r)
+parse_tile_level(otx_map_flags *r)
 {
     const char *text = r->values->text[OTX_FLAG_TILE_LEVEL];
     int64_t level;
@@ -213,7 +213,7 @@ parse_tile_level(otx_map_request *r)
 }
 
 static bool
-parse_fields(otx_map_request *r)
+parse_fields(otx_map_flags *r)
 {
     const char *text = r->values->text[OTX_FLAG_GENERATORS];
 
@@ -229,7 +229,7 @@ parse_fields(otx_map_request *r)
 }
 
 static bool
-parse_first_patch(otx_map_request *r)
+parse_first_patch(otx_map_flags *r)
 {
     const char *text = r->values->text[OTX_FLAG_FIRST_PATCH];
     double v[4];
@@ -252,7 +252,7 @@ parse_first_patch(otx_map_request *r)
 
 /* Cage and exemplar are easily taken for each other. */
 static bool
-cage_comes_first(const otx_map_request *r)
+cage_comes_first(const otx_map_flags *r)
 {
     const char *cage = r->values->operands[0];
 
@@ -268,7 +268,7 @@ cage_comes_first(const otx_map_request *r)
 /* Textures of a bake have numbers in their names; nothing else may. Which maps
  * there will be is not known yet. */
 static bool
-pictures_are_apart(const otx_map_request *r)
+pictures_are_apart(const otx_map_flags *r)
 {
     const char *const others[] = {
         r->preview, r->report, r->maps ? r->exrs[0] : NULL};
@@ -289,7 +289,7 @@ pictures_are_apart(const otx_map_request *r)
 
 /* What was decided when the mapping was saved cannot be asked for again. */
 static bool
-saved_stays(const otx_map_request *r)
+saved_stays(const otx_map_flags *r)
 {
     static const otx_flag_id decided[] = {
         OTX_FLAG_METHOD,      OTX_FLAG_SCALE,
@@ -319,7 +319,7 @@ saved_stays(const otx_map_request *r)
 }
 
 static bool
-parse_save(otx_map_request *r)
+parse_save(otx_map_flags *r)
 {
     r->save = r->values->text[OTX_FLAG_SAVE];
     if (!r->save || otx_value_has_extension(r->save, ".osdtex"))
@@ -329,10 +329,10 @@ parse_save(otx_map_request *r)
 }
 
 bool
-otx_map_request_parse(
-    const otx_flag_values *values, bool bake_only, otx_map_request *r)
+otx_map_flags_parse(
+    const otx_flag_values *values, bool bake_only, otx_map_flags *r)
 {
-    *r = (otx_map_request){
+    *r = (otx_map_flags){
         .values = values,
         .maps = !bake_only,
         .bakes = bake_only || values->text[OTX_FLAG_BAKE],
@@ -372,7 +372,7 @@ otx_map_request_parse(
 
 /* Of any exemplar: those that a bake has. */
 static uint32_t
-all_kinds(const otx_map_request *r)
+all_kinds(const otx_map_flags *r)
 {
     uint32_t kinds = 0;
 
@@ -382,7 +382,7 @@ all_kinds(const otx_map_request *r)
 }
 
 void
-otx_map_request_outputs(const otx_map_request *r, otx_path_list *out)
+otx_map_flags_outputs(const otx_map_flags *r, otx_path_list *out)
 {
     char path[OTX_MAP_PATH_BYTES];
 
@@ -407,7 +407,7 @@ otx_map_request_outputs(const otx_map_request *r, otx_path_list *out)
 
 /* Those of materials that are written beside the OBJ. */
 static bool
-maps_are_done(const otx_map_request *r, const char hash[OSDTEX_HASH_BYTES])
+maps_are_done(const otx_map_flags *r, const char hash[OSDTEX_HASH_BYTES])
 {
     char path[OTX_MAP_PATH_BYTES];
 
@@ -419,8 +419,8 @@ maps_are_done(const otx_map_request *r, const char hash[OSDTEX_HASH_BYTES])
 }
 
 bool
-otx_map_request_is_done(
-    const otx_map_request *r, const char hash[OSDTEX_HASH_BYTES])
+otx_map_flags_is_done(
+    const otx_map_flags *r, const char hash[OSDTEX_HASH_BYTES])
 {
     const char *const files[] = {
         r->maps ? r->obj : NULL, r->maps ? r->mtl : NULL, r->preview, r->report,

@@ -1,5 +1,5 @@
-/* job.c -- reading a job, checking it as a whole before a farm has it. */
-#include "farm/job.h"
+/* farm_job.c -- reading a job, checking it as a whole before a farm has it. */
+#include "farm/farm_job.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -15,37 +15,37 @@ refuse(char *error, const char *format, ...)
     va_list arguments;
 
     va_start(arguments, format);
-    vsnprintf(error, OTX_JOB_ERROR_BYTES, format, arguments);
+    vsnprintf(error, OTX_FARM_JOB_ERROR_BYTES, format, arguments);
     va_end(arguments);
     return false;
 }
 
 static json_t *
-task_at(const otx_job *job, int task)
+task_at(const otx_farm_job *job, int task)
 {
     return json_array_get(json_object_get(job->root, "tasks"), (size_t)task);
 }
 
 static const char *
-text_at(const otx_job *job, int task, const char *key)
+text_at(const otx_farm_job *job, int task, const char *key)
 {
     return json_string_value(json_object_get(task_at(job, task), key));
 }
 
 const char *
-otx_job_command(const otx_job *job, int task)
+otx_farm_job_command(const otx_farm_job *job, int task)
 {
     return text_at(job, task, "command");
 }
 
 const char *
-otx_job_task_name(const otx_job *job, int task)
+otx_farm_job_task_name(const otx_farm_job *job, int task)
 {
     return text_at(job, task, "name");
 }
 
 json_t *
-otx_job_words(const otx_job *job, int task)
+otx_farm_job_words(const otx_farm_job *job, int task)
 {
     json_t *given = json_object_get(task_at(job, task), "arguments");
     const char *text = json_string_value(given);
@@ -80,10 +80,10 @@ is_plain(const char *name)
 
 /* Only commands that know whether they are done: a farm runs tasks again. */
 static bool
-check_task(const otx_job *job, int task, char *error)
+check_task(const otx_farm_job *job, int task, char *error)
 {
-    const char *command = otx_job_command(job, task);
-    json_t *words = otx_job_words(job, task), *word;
+    const char *command = otx_farm_job_command(job, task);
+    json_t *words = otx_farm_job_words(job, task), *word;
     bool texts = json_array_size(words) > 0;
     size_t i;
 
@@ -99,7 +99,7 @@ check_task(const otx_job *job, int task, char *error)
     if (!texts)
         return refuse(
             error, "task %d: \"arguments\" is a text or a list of texts", task);
-    if (!is_plain(otx_job_task_name(job, task)))
+    if (!is_plain(otx_farm_job_task_name(job, task)))
         return refuse(
             error, "task %d: \"name\" is letters, digits, '.', '_' and '-'",
             task);
@@ -108,7 +108,7 @@ check_task(const otx_job *job, int task, char *error)
 
 /* Engines and log files know no blanks. */
 static bool
-take_name(otx_job *job)
+take_name(otx_farm_job *job)
 {
     const char *name = json_string_value(json_object_get(job->root, "name"));
 
@@ -123,7 +123,7 @@ take_name(otx_job *job)
 }
 
 static bool
-check(otx_job *job, char *error)
+check(otx_farm_job *job, char *error)
 {
     const json_t *tasks = json_object_get(job->root, "tasks");
     const json_t *threads = json_object_get(job->root, "threads");
@@ -134,10 +134,10 @@ check(otx_job *job, char *error)
             "the job needs a \"name\" of letters, digits, blanks, '.', '_' and "
             "'-'");
     if (!json_is_array(tasks) || json_array_size(tasks) == 0 ||
-        json_array_size(tasks) > OTX_JOB_TASKS_MAX)
+        json_array_size(tasks) > OTX_FARM_JOB_TASKS_MAX)
         return refuse(
             error, "the job has no \"tasks\": a list of 1 to %d",
-            OTX_JOB_TASKS_MAX);
+            OTX_FARM_JOB_TASKS_MAX);
     if (threads &&
         (!json_is_integer(threads) || json_integer_value(threads) < 0 ||
          json_integer_value(threads) > 256))
@@ -151,13 +151,14 @@ check(otx_job *job, char *error)
 }
 
 bool
-otx_job_read(const char *path, otx_job *out, char error[OTX_JOB_ERROR_BYTES])
+otx_farm_job_read(
+    const char *path, otx_farm_job *out, char error[OTX_FARM_JOB_ERROR_BYTES])
 {
     char *whole = realpath(path, NULL);
     json_error_t wrong;
 
-    *out = (otx_job){0};
-    if (!whole || strlen(whole) >= OTX_JOB_PATH_BYTES)
+    *out = (otx_farm_job){0};
+    if (!whole || strlen(whole) >= OTX_FARM_JOB_PATH_BYTES)
     {
         free(whole);
         return refuse(error, "'%.300s' cannot be found", path);
@@ -172,13 +173,13 @@ otx_job_read(const char *path, otx_job *out, char error[OTX_JOB_ERROR_BYTES])
         return refuse(error, "%.300s:%d: %s", path, wrong.line, wrong.text);
     if (check(out, error))
         return true;
-    otx_job_free(out);
+    otx_farm_job_free(out);
     return false;
 }
 
 void
-otx_job_free(otx_job *job)
+otx_farm_job_free(otx_farm_job *job)
 {
     json_decref(job->root);
-    *job = (otx_job){0};
+    *job = (otx_farm_job){0};
 }

@@ -1,8 +1,9 @@
-/* test_job.c -- jobs that are read, and the sentences for those that are not.
+/* test_farm_job.c -- jobs that are read, and the sentences for those that are
+ * not.
  */
 #include "support.h"
 
-#include "farm/job.h"
+#include "farm/farm_job.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +19,7 @@ static const char WHOLE[] =
 
 /* Reads a file with the first `length` bytes of `text`. */
 static bool
-read_bytes(const char *text, size_t length, otx_job *job, char *error)
+read_bytes(const char *text, size_t length, otx_farm_job *job, char *error)
 {
     char path[] = "/tmp/osdtex-test-job-XXXXXX";
     const int file = mkstemp(path);
@@ -27,7 +28,7 @@ read_bytes(const char *text, size_t length, otx_job *job, char *error)
     assert_true(file >= 0);
     assert_int_equal(write(file, text, length), (ssize_t)length);
     close(file);
-    done = otx_job_read(path, job, error);
+    done = otx_farm_job_read(path, job, error);
     unlink(path);
     return done;
 }
@@ -36,8 +37,8 @@ static void
 words_are_split_at_blanks_or_given(void **state)
 {
     static const char *const red[] = {"a.obj", "b.exr", "-o", "c.obj"};
-    char error[OTX_JOB_ERROR_BYTES];
-    otx_job job;
+    char error[OTX_FARM_JOB_ERROR_BYTES];
+    otx_farm_job job;
     json_t *words;
 
     (void)state;
@@ -46,21 +47,21 @@ words_are_split_at_blanks_or_given(void **state)
     assert_int_equal(job.threads, 4);
     assert_int_equal(job.task_count, 2);
     assert_string_equal(job.folder, "/tmp");
-    assert_string_equal(otx_job_command(&job, 1), "map");
-    assert_string_equal(otx_job_task_name(&job, 0), "red");
+    assert_string_equal(otx_farm_job_command(&job, 1), "map");
+    assert_string_equal(otx_farm_job_task_name(&job, 0), "red");
 
-    words = otx_job_words(&job, 0);
+    words = otx_farm_job_words(&job, 0);
     assert_int_equal(json_array_size(words), sizeof red / sizeof red[0]);
     for (size_t i = 0; i < sizeof red / sizeof red[0]; ++i)
         assert_string_equal(
             json_string_value(json_array_get(words, i)), red[i]);
     json_decref(words);
 
-    words = otx_job_words(&job, 1);
+    words = otx_farm_job_words(&job, 1);
     assert_string_equal(
         json_string_value(json_array_get(words, 1)), "dark blue.exr");
     json_decref(words);
-    otx_job_free(&job);
+    otx_farm_job_free(&job);
 }
 
 /* A job that was cut off says where, and leaves nothing behind. */
@@ -70,8 +71,8 @@ no_prefix_of_a_job_is_one(void **state)
     (void)state;
     for (size_t length = 0; length + 2 < sizeof WHOLE; ++length)
     {
-        char error[OTX_JOB_ERROR_BYTES] = "";
-        otx_job job;
+        char error[OTX_FARM_JOB_ERROR_BYTES] = "";
+        otx_farm_job job;
 
         assert_false(read_bytes(WHOLE, length, &job, error));
         assert_true(strlen(error) > 10);
@@ -91,8 +92,8 @@ no_broken_byte_does_harm(void **state)
     for (size_t at = 0; at + 1 < sizeof WHOLE; ++at)
         for (size_t i = 0; i < sizeof bytes; ++i)
         {
-            char error[OTX_JOB_ERROR_BYTES] = "";
-            otx_job job;
+            char error[OTX_FARM_JOB_ERROR_BYTES] = "";
+            otx_farm_job job;
 
             memcpy(text, WHOLE, sizeof WHOLE);
             text[at] = bytes[i];
@@ -104,12 +105,12 @@ no_broken_byte_does_harm(void **state)
             assert_true(job.task_count >= 1 && job.threads >= 0);
             for (int t = 0; t < job.task_count; ++t)
             {
-                json_t *words = otx_job_words(&job, t);
+                json_t *words = otx_farm_job_words(&job, t);
 
                 assert_true(json_array_size(words) > 0);
                 json_decref(words);
             }
-            otx_job_free(&job);
+            otx_farm_job_free(&job);
         }
 }
 
@@ -122,8 +123,8 @@ names_that_engines_would_take_amiss_are_refused(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
     {
-        char text[256], error[OTX_JOB_ERROR_BYTES];
-        otx_job job;
+        char text[256], error[OTX_FARM_JOB_ERROR_BYTES];
+        otx_farm_job job;
 
         snprintf(
             text, sizeof text,

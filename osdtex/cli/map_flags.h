@@ -1,7 +1,7 @@
-/* map_request.h -- what osdtex map and osdtex bake are asked for: options, and
+/* map_flags.h -- what osdtex map and osdtex bake are asked for: options, and
  * the names of what is written. */
-#ifndef OTX_CLI_MAP_REQUEST_H
-#define OTX_CLI_MAP_REQUEST_H
+#ifndef OTX_CLI_MAP_FLAGS_H
+#define OTX_CLI_MAP_FLAGS_H
 
 #include "cli/also_flags.h"
 #include "cli/material_flags.h"
@@ -13,7 +13,7 @@ enum
 };
 
 /* Not to be moved: options point into it. */
-typedef struct otx_map_request
+typedef struct otx_map_flags
 {
     const otx_flag_values *values;
     osdtex_cage_options cage_options;
@@ -31,22 +31,21 @@ typedef struct otx_map_request
     int exr_count; /* 0 before a saved mapping has said */
     char cage_obj[OTX_MAP_PATH_BYTES], cage_mtl[OTX_MAP_PATH_BYTES];
     const char *preview, *report, *save; /* NULL none */
-} otx_map_request;
+} otx_map_flags;
 
 /* False after saying what is wrong. Borrows the values. */
-bool otx_map_request_parse(
-    const otx_flag_values *values, bool bake_only, otx_map_request *out);
+bool otx_map_flags_parse(
+    const otx_flag_values *values, bool bake_only, otx_map_flags *out);
 
 /* Names the textures, of which a saved mapping knows how many there are. False
  * after saying what is wrong. */
-bool otx_map_request_name(otx_map_request *request);
+bool otx_map_flags_name(otx_map_flags *request);
 
 /* Adds the files that will be written. */
-void
-otx_map_request_outputs(const otx_map_request *request, otx_path_list *out);
+void otx_map_flags_outputs(const otx_map_flags *request, otx_path_list *out);
 
 /* Whether all outputs are there and whole, of the job with this hash. */
-bool otx_map_request_is_done(
-    const otx_map_request *request, const char hash[OSDTEX_HASH_BYTES]);
+bool otx_map_flags_is_done(
+    const otx_map_flags *request, const char hash[OSDTEX_HASH_BYTES]);
 
 #endif
