@@ -70,15 +70,36 @@ add_kind(
     add_texture(
         handle, (otx_textures_source){bake, -1},
         describe(bake, &mapping->exemplars[0]));
-    for (int32_t k = 0;
-         bake->maps.texels.channels > 0 && k < OTX_COMPANION_COUNT; ++k)
-        if (bake->maps.first[k] >= 0)
-            add_texture(
-                handle, (otx_textures_source){bake, k}, describe_map(k));
     return OSDTEX_OK;
 }
 
-/* The colour, the maps that lie on it, and the extras. */
+/* The maps that lie on the colour. Each has a bake of its own, so that one is
+ * had without the others. */
+static otx_status
+add_maps(
+    otx_run *run, const osdtex_mapping *mapping,
+    const osdtex_bake_options *ours, osdtex_textures *handle)
+{
+    for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
+    {
+        const otx_bake_options how = {
+            .kind = OTX_TEXEL_COLOR,
+            .seam_blend = ours->seam_blend,
+            .maps = 1u << k,
+            .maps_alone = true};
+        otx_bake *bake = &handle->map_bakes[k];
+
+        OTX_TRY(otx_bake_create(
+            run, &mapping->mapping, mapping->exemplars, &handle->layout, &how,
+            bake));
+        if (bake->maps.texels.channels > 0)
+            add_texture(
+                handle, (otx_textures_source){bake, k}, describe_map(k));
+    }
+    return OSDTEX_OK;
+}
+
+/* The colour, the maps, and the extras. */
 static otx_status
 add_textures(
     otx_run *run, const osdtex_mapping *mapping,
@@ -87,12 +108,12 @@ add_textures(
     for (int kind = 0; kind < OTX_TEXEL_KIND_COUNT; ++kind)
     {
         const otx_bake_options how = {
-            .kind = (otx_texel_kind)kind,
-            .seam_blend = ours->seam_blend,
-            .maps = kind == OTX_TEXEL_COLOR};
+            .kind = (otx_texel_kind)kind, .seam_blend = ours->seam_blend};
 
         if (otx_bake_handle_has(ours, how.kind))
             OTX_TRY(add_kind(run, mapping, &how, handle));
+        if (kind == OTX_TEXEL_COLOR)
+            OTX_TRY(add_maps(run, mapping, ours, handle));
     }
     return OSDTEX_OK;
 }

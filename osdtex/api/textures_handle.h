@@ -24,6 +24,7 @@ struct osdtex_textures
     otx_layout layout;
     int32_t first_tile; /* of the layout, that is the first here */
     otx_bake bakes[OTX_TEXEL_KIND_COUNT];
+    otx_bake map_bakes[OTX_COMPANION_COUNT];        /* each map alone */
     otx_textures_source sources[OTX_TEXTURES_MAX];  /* [texture_count] */
     osdtex_texture_info textures[OTX_TEXTURES_MAX]; /* likewise */
     osdtex_textures_info info;

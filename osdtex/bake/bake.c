@@ -70,13 +70,32 @@ make_planes(
     return true;
 }
 
+/* False when memory is out. */
+static bool
+bake_block(
+    const job *j, const otx_bake_block *block, otx_arena *scratch,
+    float *pixels, float *const planes[OTX_COMPANION_COUNT])
+{
+    const otx_bake *bake = j->bake;
+
+    if (bake->maps_alone)
+        return otx_texel_bake_maps(
+            &bake->maps, j->mip, block->x, block->y, scratch, planes);
+    return pixels && otx_texel_bake(
+                         &bake->source,
+                         bake->maps.texels.channels > 0 ? &bake->maps : NULL,
+                         j->mip, block->x, block->y, scratch, pixels, planes);
+}
+
 static otx_status
 make_block(job *j, int32_t i, otx_worker *worker)
 {
     const int32_t channels = j->bake->source.channels;
     const int64_t index = j->next.first + i;
     float *pixels =
-        OTX_NEW(worker->scratch, float, BLOCK_TEXELS *(size_t)channels);
+        j->bake->maps_alone
+            ? NULL
+            : OTX_NEW(worker->scratch, float, BLOCK_TEXELS *(size_t)channels);
     otx_bake_block block = {
         .level = j->mip->level,
         .x = (int32_t)(index % j->mip->columns),
@@ -84,11 +103,8 @@ make_block(job *j, int32_t i, otx_worker *worker)
         .pixels = pixels};
     float *planes[OTX_COMPANION_COUNT];
 
-    if (!pixels || !make_planes(j->bake, worker->scratch, planes) ||
-        !otx_texel_bake(
-            &j->bake->source,
-            j->bake->maps.texels.channels > 0 ? &j->bake->maps : NULL, j->mip,
-            block.x, block.y, worker->scratch, pixels, planes))
+    if (!make_planes(j->bake, worker->scratch, planes) ||
+        !bake_block(j, &block, worker->scratch, pixels, planes))
         return OSDTEX_ERROR_MEMORY;
     block.width = otx_mip_block_size(j->mip, block.x);
     block.height = otx_mip_block_size(j->mip, block.y);
@@ -283,8 +299,11 @@ otx_bake_create(
     const otx_layout *layout, const otx_bake_options *options, otx_bake *out)
 {
     const int32_t count = otx_source_count(mapping);
+    const bool has_color =
+        options->kind == OTX_TEXEL_COLOR && !options->maps_alone;
 
     *out = (otx_bake){
+        .maps_alone = options->maps_alone,
         .seam_blend =
             options->kind == OTX_TEXEL_COLOR ? options->seam_blend : 0.0,
         .source = {
@@ -295,16 +314,16 @@ otx_bake_create(
             .kind = options->kind,
             .channels = channels_of(options->kind, exemplars, count),
         }};
-    if (options->kind == OTX_TEXEL_COLOR)
+    if (has_color)
         find_range(
             exemplars, count, out->source.channels, out->source.low,
             out->source.high);
-    for (int32_t k = 0; options->kind == OTX_TEXEL_COLOR && k < count; ++k)
+    for (int32_t k = 0; has_color && k < count; ++k)
         OTX_TRY(make_texture(run, &exemplars[k], &out->source.textures[k]));
     if (options->maps && options->kind == OTX_TEXEL_COLOR)
         return otx_map_source_create(
-            run, mapping, exemplars, layout, options->normals_y_down,
-            &out->maps);
+            run, mapping, exemplars, layout, options->maps,
+            options->normals_y_down, &out->maps);
     return OSDTEX_OK;
 }
 

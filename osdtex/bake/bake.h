@@ -56,7 +56,9 @@ typedef struct otx_bake_options
     /* Texels of level 0 across which patches are blended where they meet, half
      * of them on either side; 0: not at all. */
     double seam_blend;
-    bool maps;           /* also those of the materials, with the colour */
+    uint32_t maps;       /* also those of the materials, with the colour: of
+                          * these kinds, as bits 1 << kind */
+    bool maps_alone;     /* and not the colour itself */
     bool normals_y_down; /* written as DirectX has them */
 } otx_bake_options;
 
@@ -65,6 +67,7 @@ typedef struct otx_bake
     otx_texel_source source;
     otx_map_source maps; /* which `source` is not moved apart from */
     double seam_blend;
+    bool maps_alone; /* blocks have no pixels of their own */
 } otx_bake;
 
 /* Prepares a bake, in run->arena; borrows all. It may not be moved. MEMORY. */

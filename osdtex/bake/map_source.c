@@ -1,7 +1,6 @@
 /* map_source.c -- what is looked up of maps, as what a bake evaluates. */
 #include "bake/map_source.h"
 
-#include "mapping/map_textures.h"
 #include "mapping/source.h"
 
 #include <string.h>
@@ -39,12 +38,12 @@ part_heights(
 otx_status
 otx_map_source_create(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
-    const otx_layout *layout, bool y_down, otx_map_source *out)
+    const otx_layout *layout, uint32_t kinds, bool y_down, otx_map_source *out)
 {
     otx_texel_source *texels = &out->texels;
     otx_map_textures maps;
 
-    OTX_TRY(otx_map_textures_create(run, mapping, exemplars, &maps));
+    OTX_TRY(otx_map_textures_create(run, mapping, exemplars, kinds, &maps));
     *out = (otx_map_source){.y_down = y_down, .carry = maps.carry};
     memcpy(out->first, maps.first, sizeof out->first);
     *texels = (otx_texel_source){

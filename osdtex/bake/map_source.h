@@ -3,6 +3,7 @@
 #define OTX_BAKE_MAP_SOURCE_H
 
 #include "bake/texel_source.h"
+#include "mapping/map_textures.h"
 
 /* What is baked of all exemplars, besides their colours. */
 typedef struct otx_map_source
@@ -19,10 +20,12 @@ typedef struct otx_map_source
 
 /* Prepares the maps that any of the exemplars has, in run->arena: where another
  * has none, it is flat and neutral. Borrows all; `out` may not be moved.
- * MEMORY. */
+ * MEMORY.
+ *
+ *   kinds  of maps, as bits 1 << kind */
 otx_status otx_map_source_create(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
-    const otx_layout *layout, bool y_down, otx_map_source *out);
+    const otx_layout *layout, uint32_t kinds, bool y_down, otx_map_source *out);
 
 /* Whether there are heights, which both sides of a rim must agree on. */
 static inline bool

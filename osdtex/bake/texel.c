@@ -192,21 +192,18 @@ prepare_maps(
     return otx_block_forget(out, scratch);
 }
 
-/* The maps of a block whose faces are drawn: what lies under the samples is the
- * same. */
+/* The maps of a block whose faces are drawn. */
 static bool
-bake_maps(
-    const otx_map_source *maps, const otx_block *drawn, int32_t column,
-    int32_t row, otx_arena *scratch, float *const planes[OTX_COMPANION_COUNT])
+shade_maps(
+    const otx_map_source *maps, picture *pic, otx_arena *scratch,
+    float *const planes[OTX_COMPANION_COUNT])
 {
-    picture p = {.beyond = otx_gutter_begin()};
-    const otx_block *block = &p.block;
+    const otx_block *block = &pic->block;
 
-    if (!prepare_maps(maps, drawn, column, row, scratch, &p.block) ||
-        !allocate(scratch, &p))
+    if (!allocate(scratch, pic))
         return false;
-    shade(&p);
-    if (otx_map_source_welds(maps) && !weld_heights(maps, &p, scratch))
+    shade(pic);
+    if (otx_map_source_welds(maps) && !weld_heights(maps, pic, scratch))
         return false;
     for (int32_t y = 0; y < block->height; ++y)
         for (int32_t x = 0; x < block->width; ++x)
@@ -215,11 +212,35 @@ bake_maps(
 
             hand_out(
                 maps,
-                p.pixels + otx_block_index(block, i, j) *
-                               (size_t)maps->texels.channels,
+                pic->pixels + otx_block_index(block, i, j) *
+                                  (size_t)maps->texels.channels,
                 (size_t)y * (size_t)block->width + (size_t)x, planes);
         }
     return true;
+}
+
+/* The maps of a block that is drawn for the colour: what lies under the samples
+ * is the same. */
+static bool
+bake_maps(
+    const otx_map_source *maps, const otx_block *drawn, int32_t column,
+    int32_t row, otx_arena *scratch, float *const planes[OTX_COMPANION_COUNT])
+{
+    picture p = {.beyond = otx_gutter_begin()};
+
+    return prepare_maps(maps, drawn, column, row, scratch, &p.block) &&
+           shade_maps(maps, &p, scratch, planes);
+}
+
+bool
+otx_texel_bake_maps(
+    const otx_map_source *maps, const otx_mip *mip, int32_t x, int32_t y,
+    otx_arena *scratch, float *const planes[OTX_COMPANION_COUNT])
+{
+    picture p = {.beyond = otx_gutter_begin()};
+
+    return otx_block_draw(&maps->texels, mip, x, y, scratch, &p.block) &&
+           shade_maps(maps, &p, scratch, planes);
 }
 
 bool

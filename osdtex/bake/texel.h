@@ -17,4 +17,9 @@ bool otx_texel_bake(
     const otx_mip *mip, int32_t x, int32_t y, otx_arena *scratch, float *pixels,
     float *const planes[OTX_COMPANION_COUNT]);
 
+/* The same without the colour: the planes are those that come with it. */
+bool otx_texel_bake_maps(
+    const otx_map_source *maps, const otx_mip *mip, int32_t x, int32_t y,
+    otx_arena *scratch, float *const planes[OTX_COMPANION_COUNT]);
+
 #endif

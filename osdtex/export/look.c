@@ -398,7 +398,7 @@ write_kind(const writer *w, otx_texel_kind kind)
     const bool preview = kind == OTX_TEXEL_COLOR && w->options->colour;
     const bool as_png = kind == OTX_TEXEL_COLOR && w->exemplars->as_png;
     const otx_bake_options options = {
-        kind, w->options->seam_blend, true,
+        kind, w->options->seam_blend, OTX_MAP_TEXTURES_ALL, false,
         w->exemplars->companions.written_y_down};
     otx_bake bake;
 

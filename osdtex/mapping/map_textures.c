@@ -8,7 +8,7 @@
 /* Which kinds there are, and where. Returns the number of channels. */
 static int32_t
 list_kinds(
-    const otx_exemplar *exemplars, int32_t count,
+    const otx_exemplar *exemplars, int32_t count, uint32_t kinds,
     int32_t first[OTX_COMPANION_COUNT])
 {
     int32_t channels = 0;
@@ -16,7 +16,8 @@ list_kinds(
     for (int32_t kind = 0; kind < OTX_COMPANION_COUNT; ++kind)
     {
         first[kind] = -1;
-        for (int32_t k = 0; k < count && first[kind] < 0; ++k)
+        for (int32_t k = 0;
+             (kinds >> kind & 1u) && k < count && first[kind] < 0; ++k)
             if (exemplars[k].companions.maps[kind].is_there)
                 first[kind] = channels;
         if (first[kind] >= 0)
@@ -74,7 +75,8 @@ order(
     const int32_t height = is_there ? from->height : 1;
     const size_t count = (size_t)width * (size_t)height;
 
-    if (is_there && is_in_order(companions, first))
+    if (is_there && from->channels == channels &&
+        is_in_order(companions, first))
     {
         *out = *from;
         return OSDTEX_OK;
@@ -110,12 +112,12 @@ set_carry(
 otx_status
 otx_map_textures_create(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
-    otx_map_textures *out)
+    uint32_t kinds, otx_map_textures *out)
 {
     const int32_t count = otx_source_count(mapping);
 
     *out = (otx_map_textures){0};
-    out->channels = list_kinds(exemplars, count, out->first);
+    out->channels = list_kinds(exemplars, count, kinds, out->first);
     if (out->channels == 0)
         return OSDTEX_OK;
     OTX_TRY(set_carry(run, mapping, exemplars, out));

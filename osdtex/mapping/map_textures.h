@@ -16,10 +16,15 @@ typedef struct otx_map_textures
     int32_t channels; /* 0: no exemplar has a map */
 } otx_map_textures;
 
+/* Of all kinds of maps, as bits 1 << kind. */
+#define OTX_MAP_TEXTURES_ALL ((1u << OTX_COMPANION_COUNT) - 1u)
+
 /* Prepares the maps that any of the exemplars has, in run->arena: where another
- * has none, it is flat and neutral. Borrows all. MEMORY. */
+ * has none, it is flat and neutral. Borrows all. MEMORY.
+ *
+ *   kinds  of them, as bits */
 otx_status otx_map_textures_create(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
-    otx_map_textures *out);
+    uint32_t kinds, otx_map_textures *out);
 
 #endif

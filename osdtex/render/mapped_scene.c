@@ -43,7 +43,8 @@ make_maps(
     otx_map_textures *maps = OTX_ZNEW(run->arena, otx_map_textures, 1);
 
     OTX_TRY(otx_run_ok(run));
-    OTX_TRY(otx_map_textures_create(run, mapping, exemplars, maps));
+    OTX_TRY(otx_map_textures_create(
+        run, mapping, exemplars, OTX_MAP_TEXTURES_ALL, maps));
     *out = maps->channels > 0 ? maps : NULL;
     return OSDTEX_OK;
 }

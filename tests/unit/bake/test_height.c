@@ -193,7 +193,8 @@ bake(
     void (*taken)(void *, int32_t, int32_t, const otx_bake_block *),
     int32_t channels)
 {
-    const otx_bake_options options = {.kind = OTX_TEXEL_COLOR, .maps = true};
+    const otx_bake_options options = {
+        .kind = OTX_TEXEL_COLOR, .maps = OTX_MAP_TEXTURES_ALL};
     flat_levels out = {otx_pyramid_count(layout->side, layout->side), {{0}}};
     const otx_bake_sink sink = {
         .take = taken, .put = flat_put, .user = &out, .share = 1.0};

@@ -33,6 +33,15 @@ turned(otx_run *run, const otx_surface *surface, double angle, double size)
     return mapping;
 }
 
+static otx_bake_options
+all_maps(bool y_down)
+{
+    return (otx_bake_options){
+        .kind = OTX_TEXEL_COLOR,
+        .maps = OTX_MAP_TEXTURES_ALL,
+        .normals_y_down = y_down};
+}
+
 /* Levels of the maps of a bake, as images. */
 typedef struct baked
 {
@@ -47,19 +56,19 @@ take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 
     one.pixels = block->maps[OTX_COMPANION_NORMAL];
     one.stride = block->map_strides[OTX_COMPANION_NORMAL];
-    flat_take(&b->normals, slot, lane, &one);
+    if (one.pixels)
+        flat_take(&b->normals, slot, lane, &one);
     one.pixels = block->maps[OTX_COMPANION_HEIGHT];
     one.stride = block->map_strides[OTX_COMPANION_HEIGHT];
-    flat_take(&b->heights, slot, lane, &one);
+    if (one.pixels)
+        flat_take(&b->heights, slot, lane, &one);
 }
 
 static baked
 bake(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplar,
-    const otx_layout *layout, bool y_down)
+    const otx_layout *layout, const otx_bake_options *options)
 {
-    const otx_bake_options options = {
-        .kind = OTX_TEXEL_COLOR, .maps = true, .normals_y_down = y_down};
     const int32_t count = otx_pyramid_count(layout->side, layout->side);
     baked out = {{count, {{0}}}, {count, {{0}}}};
     const otx_bake_sink sink = {
@@ -67,7 +76,7 @@ bake(
     otx_bake job;
 
     assert_int_equal(
-        otx_bake_create(run, mapping, exemplar, layout, &options, &job),
+        otx_bake_create(run, mapping, exemplar, layout, options, &job),
         OSDTEX_OK);
     for (int32_t l = 0; l < count; ++l)
     {
@@ -117,10 +126,11 @@ test_normals_are_turned(void **state)
         const bool y_down = turn % 2 != 0;
         const double wanted[3] = {
             0.6 * cos(angle), (y_down ? -0.6 : 0.6) * sin(angle), 0.8};
+        const otx_bake_options how = all_maps(y_down);
         baked b;
 
         flat_add_ramp(run, TEXELS, normal, 2.0, exemplar);
-        b = bake(run, mapping, exemplar, &layout, y_down);
+        b = bake(run, mapping, exemplar, &layout, &how);
         for (int32_t l = 0; l < b.normals.count; ++l)
         {
             const otx_image *image = &b.normals.levels[l];
@@ -149,11 +159,12 @@ test_heights_are_scene_units(void **state)
     const otx_layout layout =
         flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, 8);
     const otx_level *leaf = otx_surface_leaf(surface);
+    const otx_bake_options how = all_maps(false);
     baked b;
 
     (void)state;
     flat_add_ramp(run, TEXELS, up, 2.0, exemplar);
-    b = bake(run, mapping, exemplar, &layout, false);
+    b = bake(run, mapping, exemplar, &layout, &how);
     for (int32_t f = 0; f < leaf->face_count; ++f)
     {
         double u = 0.0, v = 0.0, x = 0.0;
@@ -189,7 +200,8 @@ test_colors_stay(void **state)
     const otx_layout layout =
         flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, 8);
     const otx_bake_options without = {.kind = OTX_TEXEL_COLOR};
-    const otx_bake_options with = {.kind = OTX_TEXEL_COLOR, .maps = true};
+    const otx_bake_options with = {
+        .kind = OTX_TEXEL_COLOR, .maps = OTX_MAP_TEXTURES_ALL};
     flat_levels a, b;
 
     (void)state;
@@ -204,6 +216,44 @@ test_colors_stay(void **state)
     test_run_destroy(run);
 }
 
+static void
+assert_same_levels(const flat_levels *a, const flat_levels *b, size_t channels)
+{
+    for (int32_t l = 0; l < a->count; ++l)
+        assert_memory_equal(
+            a->levels[l].pixels, b->levels[l].pixels,
+            (size_t)a->levels[l].width * (size_t)a->levels[l].height *
+                channels * sizeof(float));
+}
+
+/* A map by itself is what it is beside the colour and the others, to the bit,
+ * and there is no colour then. */
+static void
+test_one_map_alone(void **state)
+{
+    otx_run *run = test_run_create();
+    const float normal[3] = {0.6f, 0.0f, 0.8f};
+    const otx_surface *surface = flat_surface(run, N, 2);
+    const otx_mapping *mapping = turned(run, surface, 0.7, 1.0);
+    otx_exemplar *exemplar = flat_ramp(run, TEXELS);
+    const otx_layout layout =
+        flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, 8);
+    otx_bake_options how = all_maps(false);
+    baked all, one;
+
+    (void)state;
+    flat_add_ramp(run, TEXELS, normal, 2.0, exemplar);
+    all = bake(run, mapping, exemplar, &layout, &how);
+    how.maps_alone = true;
+    how.maps = 1u << OTX_COMPANION_NORMAL;
+    one = bake(run, mapping, exemplar, &layout, &how);
+    assert_same_levels(&all.normals, &one.normals, 3);
+    how.maps = 1u << OTX_COMPANION_HEIGHT;
+    one = bake(run, mapping, exemplar, &layout, &how);
+    assert_same_levels(&all.heights, &one.heights, 1);
+    test_run_destroy(run);
+}
+
 int
 main(void)
 {
@@ -211,6 +261,7 @@ main(void)
         cmocka_unit_test(test_normals_are_turned),
         cmocka_unit_test(test_heights_are_scene_units),
         cmocka_unit_test(test_colors_stay),
+        cmocka_unit_test(test_one_map_alone),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

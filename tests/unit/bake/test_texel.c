@@ -216,7 +216,7 @@ maps_come_with_the_colour(void **state)
     assert_int_equal(
         otx_image_create(run, run->arena, SIDE, SIDE, 1, &roughness),
         OSDTEX_OK);
-    options.maps = true;
+    options.maps = OTX_MAP_TEXTURES_ALL;
     begin(u, exemplar, &options);
     with = bake_all(u, &roughness);
     assert_memory_equal(
