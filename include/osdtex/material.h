@@ -13,11 +13,18 @@
  *     osdtex_material_destroy(material);
  *
  * Names are looked at; only of an EXR with layers the header is read. A handle
- * is immutable. */
+ * is immutable. A host that has the pixels gives them itself:
+ *
+ *     const osdtex_companion height = {
+ *         .kind = OSDTEX_MAP_HEIGHT, .image = heights};
+ *
+ *     options.maps = &height;
+ *     options.map_count = 1;
+ *     osdtex_exemplar_create(context, image, &options, &exemplar); */
 #ifndef OSDTEX_MATERIAL_H
 #define OSDTEX_MATERIAL_H
 
-#include <osdtex/context.h>
+#include <osdtex/image.h>
 
 OSDTEX_BEGIN_DECLS
 
@@ -37,7 +44,7 @@ enum
  * times as large or as small. */
 typedef struct osdtex_companion
 {
-    const char *path;
+    const char *path; /* NULL with an image */
     osdtex_map_kind kind;
     int32_t channel;   /* of the file, from 0: red; of normals the first of
                         * three */
@@ -46,6 +53,11 @@ typedef struct osdtex_companion
     int32_t inverted;  /* 1: it is 1 less what the file says, as gloss is to
                         * roughness */
     const char *layer; /* of an EXR, by name; NULL: as a picture is read */
+    /* Pixels instead of a file, which are copied: numbers as a file of floats
+     * has them. Of normals (n + 1) / 2, or where any is negative n itself; one
+     * or two channels are grey. A mapping of them cannot be saved, which names
+     * files. */
+    const osdtex_image *image;
 } osdtex_companion;
 
 /* "normal", "roughness", "height", "metalness", "occlusion", as files are

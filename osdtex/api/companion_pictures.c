@@ -1,6 +1,8 @@
-/* companion_pictures.c -- the other maps of a material, from their files. */
+/* companion_pictures.c -- the other maps of a material, from their files or the
+ * host's pixels. */
 #include "api/companion_pictures.h"
 
+#include "api/handle.h"
 #include "api/picture_source.h"
 #include "base/hash.h"
 #include "exemplar/match_maps.h"
@@ -48,21 +50,43 @@ check(otx_run *run, const osdtex_exemplar_options *options)
     {
         const osdtex_companion *map = &options->maps[i];
 
-        if (!map->path || map->kind < 0 || map->kind >= OSDTEX_MAP_KINDS ||
-            map->channel < 0 || map->channel > 3 ||
+        if ((!map->path && !map->image) || map->kind < 0 ||
+            map->kind >= OSDTEX_MAP_KINDS || map->channel < 0 ||
+            map->channel > 3 ||
             (map->kind == OSDTEX_MAP_NORMAL && map->channel != 0))
             return otx_fail(
                 run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
-                "a map of the material has no path, or is of no kind or "
-                "channel that there is");
+                "a map of the material has neither a path nor an image, or is "
+                "of "
+                "no kind or channel that there is");
     }
     return OSDTEX_OK;
 }
 
+/* As NULL is to itself. */
 static bool
-same_layer(const char *a, const char *b)
+same_text(const char *a, const char *b)
 {
     return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+static bool
+same_source(const osdtex_companion *a, const osdtex_companion *b)
+{
+    return a->image == b->image &&
+           (a->image ||
+            (same_text(a->path, b->path) && same_text(a->layer, b->layer)));
+}
+
+/* Pixels of the host, as if from a file of floats. */
+static otx_picture
+picture_of(const osdtex_image *image)
+{
+    return (otx_picture){
+        .image = image->image,
+        .is_float = true,
+        .bits = 32,
+        .is_gray = image->image.channels < 3};
 }
 
 /* The only layer of an EXR, whatever its one channel is called; else NULL. */
@@ -85,9 +109,13 @@ read_file(pictures *p, const osdtex_companion *maps, int32_t i)
 {
     const char *layer = maps[i].layer;
 
+    if (maps[i].image)
+    {
+        p->list[i] = picture_of(maps[i].image);
+        return OSDTEX_OK;
+    }
     for (int32_t k = 0; k < i; ++k)
-        if (strcmp(maps[k].path, maps[i].path) == 0 &&
-            same_layer(maps[k].layer, maps[i].layer))
+        if (same_source(&maps[k], &maps[i]))
         {
             p->list[i] = p->list[k];
             memcpy(p->hashes[i], p->hashes[k], sizeof p->hashes[i]);
@@ -126,8 +154,8 @@ describe(
         .channel = maps[i].channel,
         .y_down = maps[i].y_down != 0,
         .is_inverted = maps[i].inverted != 0,
-        .path = maps[i].path,
-        .layer = maps[i].layer,
+        .path = maps[i].image ? NULL : maps[i].path,
+        .layer = maps[i].image ? NULL : maps[i].layer,
         .hash = p->hashes[i][0] ? p->hashes[i] : NULL,
         .type = otx_picture_source_type(picture),
     };
@@ -153,6 +181,12 @@ print_map(const otx_companion_input *in, char *text, size_t bytes)
         in->is_inverted ? ", 1 less what it says (gloss)" : "");
 }
 
+static bool
+same_file(const otx_companion_input *a, const otx_companion_input *b)
+{
+    return a == b || (a->path && b->path && strcmp(a->path, b->path) == 0);
+}
+
 /* What was found, a file at a time. */
 static void
 say(otx_run *run, const otx_companion_input *inputs, int32_t count)
@@ -163,9 +197,9 @@ say(otx_run *run, const otx_companion_input *inputs, int32_t count)
         bool said = false;
 
         for (int32_t k = 0; k < i; ++k)
-            said = said || strcmp(inputs[k].path, inputs[i].path) == 0;
+            said = said || same_file(&inputs[k], &inputs[i]);
         for (int32_t k = i; k < count && !said; ++k)
-            if (strcmp(inputs[k].path, inputs[i].path) == 0)
+            if (same_file(&inputs[k], &inputs[i]))
                 print_map(&inputs[k], text, sizeof text);
         if (!said)
             otx_note(

@@ -142,6 +142,26 @@ print_all(const osdtex_mapping *mapping, const char *topology)
         otx_saved_constraints_print(mapping->request.constraints));
 }
 
+static otx_status
+check_maps(otx_run *run, const osdtex_mapping *mapping)
+{
+    for (int32_t k = 0; k < mapping->source_count; ++k)
+        for (int m = 0; m < OTX_COMPANION_COUNT; ++m)
+        {
+            const otx_companion *map =
+                &mapping->sources[k]->exemplar.companions.maps[m];
+
+            if (map->is_there && !map->path)
+                return otx_fail(
+                    run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+                    "the %s map of exemplar %d was made from pixels, and a "
+                    "saved mapping names a file of it; write it as an EXR and "
+                    "read it",
+                    otx_companion_name((otx_companion_kind)m), (int)k + 1);
+        }
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_saved_about_print(
     otx_run *run, const osdtex_mapping *mapping, const char **out)
@@ -162,6 +182,7 @@ otx_saved_about_print(
                 "exemplar %d was made from pixels, and a saved mapping names a "
                 "file of it; write it as an EXR and read it",
                 (int)k + 1);
+    OTX_TRY(check_maps(run, mapping));
     OTX_TRY(otx_saved_topology(run, &mapping->surface->cage->cage, &topology));
     root = print_all(mapping, topology);
     text = root ? json_dumps(root, JSON_COMPACT | JSON_SORT_KEYS) : NULL;

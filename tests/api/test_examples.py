@@ -18,7 +18,7 @@ extern osdtex_context *context;
 extern osdtex_cage *cage;
 extern osdtex_surface *surface;
 extern osdtex_exemplar *exemplar, *tiles, *spots, *stripes;
-extern osdtex_image *image;
+extern osdtex_image *image, *heights;
 extern osdtex_mapping *mapping;
 extern osdtex_map_options map_options;
 extern osdtex_bake_options bake_options;

@@ -227,6 +227,101 @@ maps_of_a_material_come_with_its_colour(void **state)
     assert_int_equal(system(command), 0);
 }
 
+/* A plane with maps of the host's own pixels. */
+static osdtex_status
+map_pixels(
+    osdtex_context *context, const osdtex_companion *maps, int32_t count,
+    osdtex_mapping **out)
+{
+    osdtex_exemplar_options how = osdtex_exemplar_options_default();
+    osdtex_map_options map = osdtex_map_options_default();
+    osdtex_exemplar *exemplar = NULL;
+    osdtex_cage *cage = NULL;
+    osdtex_status status =
+        osdtex_cage_read(context, "models/cages/plane.obj", NULL, &cage);
+
+    map.level = 0;
+    map.scale = 4.0;
+    how.maps = maps;
+    how.map_count = count;
+    if (status == OSDTEX_OK)
+        status = osdtex_exemplar_read(
+            context, "models/exemplars/gravel_tile.png", &how, &exemplar);
+    if (status == OSDTEX_OK)
+        status = osdtex_map(context, cage, exemplar, &map, out);
+    osdtex_exemplar_destroy(exemplar);
+    osdtex_cage_destroy(cage);
+    return status;
+}
+
+/* Every texel the same: `channels` of value. */
+static osdtex_image *
+even_image(osdtex_context *context, int32_t channels, const float *value)
+{
+    enum
+    {
+        TEXELS = 64
+    };
+    float *pixels = calloc((size_t)TEXELS * TEXELS * 4, sizeof *pixels);
+    osdtex_image *image = NULL;
+
+    for (int32_t i = 0; i < TEXELS * TEXELS * channels; ++i)
+        pixels[i] = value[i % channels];
+    assert_int_equal(
+        osdtex_image_create(context, TEXELS, TEXELS, channels, pixels, &image),
+        OSDTEX_OK);
+    free(pixels);
+    return image;
+}
+
+static void
+maps_come_from_memory(void **state)
+{
+    static const float rough[] = {0.25f}, flat[] = {0.5f, 0.5f, 1.0f};
+    osdtex_bake_options options = small_bake();
+    osdtex_context *context;
+    osdtex_mapping *mapping = NULL;
+    osdtex_companion maps[2] = {
+        {.kind = OSDTEX_MAP_ROUGHNESS}, {.kind = OSDTEX_MAP_NORMAL}};
+    osdtex_image *normal, *roughness, *given[2];
+    scene s;
+
+    (void)state;
+    options.extras = 0;
+    assert_int_equal(osdtex_context_create(NULL, &context), OSDTEX_OK);
+    assert_int_equal(
+        map_pixels(context, maps, 1, &mapping), OSDTEX_ERROR_ARGUMENT);
+    maps[0].image = given[0] = even_image(context, 1, rough);
+    maps[1].image = given[1] = even_image(context, 3, flat);
+    if (map_pixels(context, maps, 2, &mapping) != OSDTEX_OK)
+        fail_msg("%s", osdtex_context_error(context)->message);
+    osdtex_image_destroy(given[0]);
+    osdtex_image_destroy(given[1]);
+    open_scene((void **)&mapping, &s, &options, 2);
+    assert_string_equal(osdtex_texture_describe(s.textures, 1)->name, "normal");
+    normal = image_of(&s, 1, 0, 0);
+    roughness = image_of(&s, 2, 0, 0);
+    for (size_t i = 0; i < (size_t)SIDE * SIDE; ++i)
+    {
+        const float *n = osdtex_image_describe(normal)->pixels + 3 * i;
+
+        assert_float_equal(
+            osdtex_image_describe(roughness)->pixels[i], rough[0], 1e-6);
+        for (int k = 0; k < 3; ++k)
+            assert_float_equal(n[k], flat[k], 1e-6);
+    }
+    osdtex_image_destroy(normal);
+    osdtex_image_destroy(roughness);
+    assert_int_equal(
+        osdtex_mapping_save(context, mapping, "/tmp/none.osdtex"),
+        OSDTEX_ERROR_ARGUMENT);
+    assert_non_null(
+        strstr(osdtex_context_error(context)->message, "normal map"));
+    close_scene(&s);
+    osdtex_mapping_destroy(mapping);
+    osdtex_context_destroy(context);
+}
+
 static void
 arrays_hold_what_images_hold(void **state)
 {
@@ -474,6 +569,7 @@ main(void)
         cmocka_unit_test(one_tile_is_that_of_all),
         cmocka_unit_test(memory_holds_what_files_hold),
         cmocka_unit_test(maps_of_a_material_come_with_its_colour),
+        cmocka_unit_test(maps_come_from_memory),
         cmocka_unit_test(arrays_hold_what_images_hold),
         cmocka_unit_test(threads_make_no_difference),
         cmocka_unit_test(contexts_share_a_handle),
