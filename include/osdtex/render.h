@@ -24,8 +24,10 @@ OSDTEX_BEGIN_DECLS
 
 typedef struct osdtex_model osdtex_model;
 
-/* Something to look at: a written OBJ with its MTL and textures. FORMAT, LIMIT,
- * NUMERIC, COLOUR, IO, MEMORY. A texture that cannot be read is a warning. */
+/* Something to look at: a written OBJ with its MTL and textures, and the maps
+ * of roughness, metalness, normals and heights that the MTL names. FORMAT,
+ * LIMIT, NUMERIC, COLOUR, IO, MEMORY. A texture that is not there is a warning,
+ * and so is a map that cannot be read or does not lie on its texture. */
 OSDTEX_API osdtex_status osdtex_model_read(
     osdtex_context *context, const char *path, osdtex_model **out);
 /* The same from a mapping. */
@@ -63,8 +65,8 @@ typedef struct osdtex_render_options
     double target[3];
     double fov;          /* of the picture's height, radians */
     int32_t transparent; /* 1: alpha 0 around the model */
-    int32_t plain;       /* 1: of a mapping of a material the lit colour alone,
-                          * without its other maps */
+    int32_t plain;       /* 1: of a material the lit colour alone, without its
+                          * other maps */
     int32_t displace;    /* 1: vertices are moved by its heights */
     int32_t no_shadows;  /* 1: lit without rays to the model itself */
     int32_t up_axis;     /* 1: Z is up, 0: Y; `view` and `turn` go by it */

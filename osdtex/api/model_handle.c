@@ -3,6 +3,7 @@
  * space that light is added up in. */
 #include "api/call.h"
 #include "api/handle.h"
+#include "api/model_maps.h"
 #include "api/picture_source.h"
 #include "colour/decoder.h"
 #include "file/mtl.h"
@@ -29,6 +30,7 @@ typedef struct material_look
     int32_t texture;     /* -1 none */
     bool is_constant;    /* a texture of one texel, for faces without UVs too */
     const char *pattern; /* of files that are one for each UDIM tile; NULL */
+    otx_data_maps maps;  /* beside them; likewise patterns */
 } material_look;
 
 typedef struct loader
@@ -40,6 +42,7 @@ typedef struct loader
     otx_scene *scene;
     otx_scene_texture *textures; /* room for each material, and where there are
                                   * UDIM tiles for each face */
+    otx_data_maps *maps;         /* of each texture */
     int32_t texture_count;
     source *sources; /* likewise */
     int32_t source_count;
@@ -87,9 +90,11 @@ linearise(loader *l, const char *path, otx_picture *picture)
 }
 
 /* Index of the texture in the file `path`, read once; -1 when the file is not
- * there, which is a warning: a model without its textures can be looked at. */
+ * there, which is a warning: a model without its textures can be looked at.
+ *
+ *   maps  that lie on it */
 static otx_status
-texture_of(loader *l, const char *path, int32_t *out)
+texture_of(loader *l, const char *path, const otx_data_maps *maps, int32_t *out)
 {
     otx_run *run = &l->call->run;
     otx_where where = OTX_NOWHERE;
@@ -110,6 +115,7 @@ texture_of(loader *l, const char *path, int32_t *out)
         OTX_TRY(otx_picture_read(run, path, &picture));
         OTX_TRY(linearise(l, path, &picture));
         *out = l->texture_count++;
+        l->maps[*out] = *maps;
         l->textures[*out] =
             (otx_scene_texture){picture.image, true, true, NULL};
     }
@@ -132,8 +138,27 @@ constant_of(loader *l, const float color[3], int32_t *out)
     OTX_TRY(otx_image_create(run, run->arena, 1, 1, 3, &image));
     memcpy(image.pixels, color, 3 * sizeof *color);
     *out = l->texture_count++;
+    l->maps[*out] = (otx_data_maps){0};
     l->textures[*out] = (otx_scene_texture){image, true, true, NULL};
     return OSDTEX_OK;
+}
+
+/* The maps of a material as paths. */
+static otx_status
+maps_beside(
+    otx_run *run, const char *path, const otx_data_maps *from,
+    otx_data_maps *out)
+{
+    const char *const names[] = {
+        from->normal, from->roughness, from->metalness, from->height};
+    const char **const paths[] = {
+        &out->normal, &out->roughness, &out->metalness, &out->height};
+
+    *out = (otx_data_maps){0};
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
+        if (names[i])
+            *paths[i] = beside(run->arena, path, names[i]);
+    return otx_run_ok(run);
 }
 
 /* What a material of the library at `path` shows: its map, else its colour. */
@@ -148,11 +173,11 @@ look_of(
     if (material->map_kd)
     {
         texture = beside(run->arena, path, material->map_kd);
-        OTX_TRY(otx_run_ok(run));
+        OTX_TRY(maps_beside(run, path, &material->maps, &out->maps));
         if (otx_udim_name_is_pattern(texture))
             out->pattern = texture;
         else
-            OTX_TRY(texture_of(l, texture, &out->texture));
+            OTX_TRY(texture_of(l, texture, &out->maps, &out->texture));
         return OSDTEX_OK;
     }
     if (!material->has_diffuse)
@@ -203,14 +228,33 @@ use_libraries(loader *l)
     return OSDTEX_OK;
 }
 
+/* The files of one UDIM tile. */
+static otx_status
+maps_of_tile(
+    otx_run *run, const otx_data_maps *patterns, int32_t tile,
+    otx_data_maps *out)
+{
+    const char **const paths[] = {
+        &out->normal, &out->roughness, &out->metalness, &out->height};
+
+    *out = *patterns;
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; ++i)
+        if (*paths[i] && otx_udim_name_is_pattern(*paths[i]))
+            *paths[i] = otx_udim_name_of(run->arena, *paths[i], tile);
+    return otx_run_ok(run);
+}
+
 /* The texture of the UDIM tile that a face lies in, -1 where there is none;
  * the face's UVs become those within the tile.
  *
  *   uvs  of the face's corners */
 static otx_status
 tile_texture(
-    loader *l, const char *pattern, float *uvs, int32_t size, int32_t *out)
+    loader *l, const material_look *look, float *uvs, int32_t size,
+    int32_t *out)
 {
+    otx_data_maps maps;
+    int32_t tile;
     double middle[2] = {0.0, 0.0};
     double column, row;
     const char *path;
@@ -224,16 +268,15 @@ tile_texture(
     if (!(column >= 0.0 && column < OTX_UDIM_COLUMNS && row >= 0.0 &&
           row < OTX_UDIM_ROWS))
         return OSDTEX_OK;
-    path = otx_udim_name_of(
-        l->call->run.arena, pattern,
-        otx_udim_tile((int32_t)column, (int32_t)row));
-    OTX_TRY(otx_run_ok(&l->call->run));
+    tile = otx_udim_tile((int32_t)column, (int32_t)row);
+    path = otx_udim_name_of(l->call->run.arena, look->pattern, tile);
+    OTX_TRY(maps_of_tile(&l->call->run, &look->maps, tile, &maps));
     for (int32_t i = 0; i < size; ++i)
     {
         uvs[2 * (size_t)i] -= (float)column;
         uvs[2 * (size_t)i + 1] -= (float)row;
     }
-    return texture_of(l, path, out);
+    return texture_of(l, path, &maps, out);
 }
 
 /* What a face shows: nothing without UVs, but for a constant. */
@@ -248,8 +291,7 @@ face_texture_of(
     if (!look || (!has_uvs && !look->is_constant))
         return OSDTEX_OK;
     *out = look->texture;
-    return look->pattern ? tile_texture(l, look->pattern, uvs, size, out)
-                         : OSDTEX_OK;
+    return look->pattern ? tile_texture(l, look, uvs, size, out) : OSDTEX_OK;
 }
 
 /* Per-corner UVs and per-face textures from the OBJ's indices. */
@@ -332,6 +374,7 @@ load(loader *l)
     otx_run *run = &l->call->run;
 
     l->textures = OTX_ZNEW(run->arena, otx_scene_texture, slots);
+    l->maps = OTX_ZNEW(run->arena, otx_data_maps, slots);
     l->sources = OTX_ZNEW(run->arena, source, slots);
     l->looks = OTX_NEW(run->arena, material_look, materials);
     OTX_TRY(otx_run_ok(run));
@@ -345,7 +388,7 @@ load(loader *l)
     choose_wrapping(l);
     l->scene->textures = l->textures;
     l->scene->texture_count = l->texture_count;
-    return OSDTEX_OK;
+    return otx_model_maps_read(l->call, l->maps, l->scene);
 }
 
 static otx_status

@@ -53,7 +53,8 @@ otx_map_source_create(
         .exemplars = exemplars,
         .kind = OTX_TEXEL_MAPS,
         .channels = maps.channels};
-    memcpy(texels->textures, maps.textures, sizeof texels->textures);
+    for (int32_t k = 0; maps.channels > 0 && k < otx_source_count(mapping); ++k)
+        texels->textures[k] = maps.textures[k];
     if (maps.channels > 0)
         texels->show.carry = &out->carry;
     return part_heights(run, &maps, otx_source_count(mapping), out);

@@ -1,8 +1,8 @@
 /* mtl.c -- material libraries.
  *
  * A library holds much that a picture of ours does not need, and much that no
- * two programs agree about. So whatever is not `newmtl`, `Kd` or `map_Kd` is
- * passed over without a word. */
+ * two programs agree about. So whatever is not `newmtl`, `Kd`, `map_Kd` or one
+ * of the maps that we write is passed over without a word. */
 #include "file/mtl.h"
 
 #include "bridge/charconv.h"
@@ -112,8 +112,29 @@ read_diffuse(reader *r, otx_mtl_material *material)
     return otx_text_float(&r->text, "blue", &kd[2]);
 }
 
+/* Where the file of a map goes; NULL for other words. */
+static const char **
+map_of(otx_mtl_material *material, otx_token word)
+{
+    otx_data_maps *maps = &material->maps;
+    const struct
+    {
+        const char *word;
+        const char **file;
+    } all[] = {
+        {"map_Kd", &material->map_kd}, {"map_Pr", &maps->roughness},
+        {"map_Pm", &maps->metalness},  {"norm", &maps->normal},
+        {"disp", &maps->height},
+    };
+
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
+        if (otx_token_is(word, all[i].word))
+            return all[i].file;
+    return NULL;
+}
+
 static otx_status
-read_map(reader *r, otx_mtl_material *material)
+read_map(reader *r, const char **out)
 {
     otx_token name;
 
@@ -121,7 +142,7 @@ read_map(reader *r, otx_mtl_material *material)
     name = otx_text_remainder(&r->text);
     if (name.begin == name.end)
         return OSDTEX_OK;
-    material->map_kd = otx_token_copy(r->run->arena, name);
+    *out = otx_token_copy(r->run->arena, name);
     return otx_run_ok(r->run);
 }
 
@@ -142,19 +163,20 @@ begin_material(reader *r)
 static otx_status
 read_line(reader *r, otx_token word)
 {
-    otx_mtl_material *material;
+    otx_mtl_material none,
+        *material = r->count > 0 ? &r->materials[r->count - 1] : &none;
+    const bool is_diffuse = otx_token_is(word, "Kd");
+    const char **map = map_of(material, word);
 
     if (otx_token_is(word, "newmtl"))
         return begin_material(r);
-    if (!otx_token_is(word, "Kd") && !otx_token_is(word, "map_Kd"))
+    if (!is_diffuse && !map)
         return OSDTEX_OK;
     if (r->count == 0)
         return otx_fail(
             r->run, OSDTEX_ERROR_FORMAT, STAGE, otx_text_where(&r->text),
             "a material has to begin with 'newmtl' before this line");
-    material = &r->materials[r->count - 1];
-    return *word.begin == 'K' ? read_diffuse(r, material)
-                              : read_map(r, material);
+    return is_diffuse ? read_diffuse(r, material) : read_map(r, map);
 }
 
 static otx_status

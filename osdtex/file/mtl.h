@@ -16,7 +16,8 @@ typedef struct otx_mtl_material
     float diffuse[3];   /* `Kd`, 1 1 1 when absent */
     bool has_diffuse;   /* it is there; the writer always writes it */
     const char *map_kd; /* file name as written, options skipped; NULL none */
-    otx_data_maps maps; /* the reader does not look */
+    otx_data_maps maps; /* likewise; `map_Bump` is not read, of which nobody can
+                         * tell what it is, nor is there occlusion */
     int64_t line;       /* of `newmtl`; the writer does not look */
 } otx_mtl_material;
 

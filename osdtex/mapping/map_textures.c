@@ -8,7 +8,7 @@
 /* Which kinds there are, and where. Returns the number of channels. */
 static int32_t
 list_kinds(
-    const otx_exemplar *exemplars, int32_t count, uint32_t kinds,
+    const otx_map_set *sets, int32_t count, uint32_t kinds,
     int32_t first[OTX_COMPANION_COUNT])
 {
     int32_t channels = 0;
@@ -18,7 +18,7 @@ list_kinds(
         first[kind] = -1;
         for (int32_t k = 0;
              (kinds >> kind & 1u) && k < count && first[kind] < 0; ++k)
-            if (exemplars[k].companions.maps[kind].is_there)
+            if (sets[k].companions->maps[kind].is_there)
                 first[kind] = channels;
         if (first[kind] >= 0)
             channels += otx_companion_channels((otx_companion_kind)kind);
@@ -110,26 +110,40 @@ set_carry(
 }
 
 otx_status
+otx_map_textures_gather(
+    otx_run *run, const otx_map_set *sets, int32_t count, uint32_t kinds,
+    otx_map_textures *out)
+{
+    otx_texture *textures = OTX_ZNEW(run->arena, otx_texture, count);
+
+    *out = (otx_map_textures){.textures = textures};
+    OTX_TRY(otx_run_ok(run));
+    out->channels = list_kinds(sets, count, kinds, out->first);
+    for (int32_t k = 0; out->channels > 0 && k < count; ++k)
+    {
+        otx_image image;
+
+        OTX_TRY(
+            order(run, sets[k].companions, out->channels, out->first, &image));
+        OTX_TRY(otx_texture_create(
+            run, run->arena, &image, sets[k].wrap_x, sets[k].wrap_y,
+            &textures[k]));
+    }
+    return OSDTEX_OK;
+}
+
+otx_status
 otx_map_textures_create(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     uint32_t kinds, otx_map_textures *out)
 {
     const int32_t count = otx_source_count(mapping);
+    otx_map_set sets[OTX_EXEMPLARS_MAX];
 
-    *out = (otx_map_textures){0};
-    out->channels = list_kinds(exemplars, count, kinds, out->first);
-    if (out->channels == 0)
-        return OSDTEX_OK;
-    OTX_TRY(set_carry(run, mapping, exemplars, out));
     for (int32_t k = 0; k < count; ++k)
-    {
-        otx_image image;
-
-        OTX_TRY(order(
-            run, &exemplars[k].companions, out->channels, out->first, &image));
-        OTX_TRY(otx_texture_create(
-            run, run->arena, &image, exemplars[k].wrap_x, exemplars[k].wrap_y,
-            &out->textures[k]));
-    }
-    return OSDTEX_OK;
+        sets[k] = (otx_map_set){
+            &exemplars[k].companions, exemplars[k].wrap_x, exemplars[k].wrap_y};
+    OTX_TRY(otx_map_textures_gather(run, sets, count, kinds, out));
+    return out->channels > 0 ? set_carry(run, mapping, exemplars, out)
+                             : OSDTEX_OK;
 }

@@ -9,8 +9,9 @@
  * finds them with `carry` in its view. */
 typedef struct otx_map_textures
 {
-    otx_texture textures[OTX_EXEMPLARS_MAX];
-    otx_carry carry;
+    const otx_texture *textures; /* [count] */
+    otx_carry carry; /* its surface is NULL where the values are told in the
+                      * frame of the UVs as they are */
     /* First channel of a kind's values; -1: no exemplar has it. */
     int32_t first[OTX_COMPANION_COUNT];
     int32_t channels; /* 0: no exemplar has a map */
@@ -18,6 +19,19 @@ typedef struct otx_map_textures
 
 /* Of all kinds of maps, as bits 1 << kind. */
 #define OTX_MAP_TEXTURES_ALL ((1u << OTX_COMPANION_COUNT) - 1u)
+
+/* What lies on one picture, and whether that tiles. */
+typedef struct otx_map_set
+{
+    const otx_companions *companions;
+    bool wrap_x, wrap_y;
+} otx_map_set;
+
+/* Prepares the maps of `count` pictures as they are, in run->arena. Borrows
+ * all. MEMORY. */
+otx_status otx_map_textures_gather(
+    otx_run *run, const otx_map_set *sets, int32_t count, uint32_t kinds,
+    otx_map_textures *out);
 
 /* Prepares the maps that any of the exemplars has, in run->arena: where another
  * has none, it is flat and neutral. Borrows all. MEMORY.

@@ -37,8 +37,8 @@ typedef struct otx_scene
 
     int32_t texture_count;
     const otx_scene_texture *textures; /* [texture_count] */
-    /* Of the same exemplars as the textures, on the mapping that the scene is
-     * from; NULL: matte colours. */
+    /* Of the same pictures as the textures, carried over where the scene is of
+     * a mapping; NULL: matte colours. */
     const otx_map_textures *maps;
     const int32_t
         *face_texture; /* [face_count], -1 none; NULL: all the first */

@@ -440,16 +440,49 @@ value_of(
         1.0f);
 }
 
-/* A normal in the frame of the footprint, on the smooth surface. */
+/* A normal in the frame of two moves over the surface, on the smooth one. */
 static otx_vec3
-bend(const footprint *f, const float n[3], otx_vec3 normal)
+bend(otx_vec3 right, otx_vec3 up, const float n[3], otx_vec3 normal)
 {
-    const otx_vec3 x = otx_vec3_unit(f->right);
+    const otx_vec3 x = otx_vec3_unit(right);
     const otx_vec3 y =
-        otx_vec3_unit(otx_vec3_mix(1.0, f->up, -otx_vec3_dot(f->up, x), x));
+        otx_vec3_unit(otx_vec3_mix(1.0, up, -otx_vec3_dot(up, x), x));
 
     return otx_vec3_unit(otx_vec3_add(
         otx_vec3_mix(n[0], x, n[1], y), otx_vec3_scale(n[2], normal)));
+}
+
+/* How the hit moves over its triangle along the rows of its UVs, and across
+ * them. False where the UVs have no area. */
+static bool
+uv_moves(
+    const otx_scene *scene, const otx_hit *hit, otx_vec3 *right, otx_vec3 *up)
+{
+    const otx_vec2 a = corner_uv(scene, hit->corners[0]);
+    const otx_vec2 b = otx_vec2_sub(corner_uv(scene, hit->corners[1]), a);
+    const otx_vec2 c = otx_vec2_sub(corner_uv(scene, hit->corners[2]), a);
+    const otx_vec3 e1 = otx_vec3_sub(hit->points[1], hit->points[0]);
+    const otx_vec3 e2 = otx_vec3_sub(hit->points[2], hit->points[0]);
+    const double side = otx_vec2_cross(b, c) > 0.0 ? 1.0 : -1.0;
+
+    *right = otx_vec3_mix(side * c.y, e1, -side * b.y, e2);
+    *up = otx_vec3_mix(-side * c.x, e1, side * b.x, e2);
+    return otx_vec3_length(*right) > 0.0 && otx_vec3_length(*up) > 0.0;
+}
+
+/* The normal that a map tells. */
+static otx_vec3
+told_normal(
+    const otx_scene *scene, const otx_hit *hit, const footprint *f,
+    const float *values, otx_vec3 normal)
+{
+    const int32_t first = scene->maps->first[OTX_COMPANION_NORMAL];
+    otx_vec3 right = f->right, up = f->up;
+
+    if (first < 0 ||
+        (!scene->maps->carry.surface && !uv_moves(scene, hit, &right, &up)))
+        return normal;
+    return bend(right, up, values + first, normal);
 }
 
 static material
@@ -459,19 +492,20 @@ material_at(
     const otx_scene *scene = shade->scene;
     const otx_map_textures *maps = scene->maps;
     const otx_show_view show = {
-        scene->uvs,   scene->face_first, scene->lookups,   &maps->carry,
-        scene->field, scene->along,      scene->face_verts};
+        scene->uvs,       scene->face_first,
+        scene->lookups,   maps->carry.surface ? &maps->carry : NULL,
+        scene->field,     scene->along,
+        scene->face_verts};
     const footprint f = footprint_of(shade, hit);
     const otx_show_place place = {
         hit->face, hit->corners, hit->weights, f.dx, f.dy};
-    const int32_t bent = maps->first[OTX_COMPANION_NORMAL];
     float values[OTX_IMAGE_MAX_CHANNELS];
 
     otx_show_color(
         &show, maps->textures, &place, t, 1.0 / shade->options->samples,
         maps->channels, values);
     return (material){
-        bent < 0 ? normal : bend(&f, values + bent, normal),
+        told_normal(scene, hit, &f, values, normal),
         value_of(maps, values, OTX_COMPANION_ROUGHNESS),
         value_of(maps, values, OTX_COMPANION_METALNESS),
         value_of(maps, values, OTX_COMPANION_OCCLUSION)};

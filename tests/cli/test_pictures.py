@@ -45,6 +45,13 @@ def unfilter(kind, line, above, step):
     return bytes(out)
 
 
+def difference(a, b):
+    """Mean over pixels and channels of two pictures."""
+    pairs = [(p, q) for one, two in zip(png(a), png(b))
+             for one, two in zip(one, two) for p, q in zip(one, two)]
+    return sum(abs(p - q) for p, q in pairs) / len(pairs)
+
+
 class Pictures(ProgramTest):
     def map_with(self, name, *more, exit_code=0):
         result = self.run_program(
@@ -68,6 +75,30 @@ class Pictures(ProgramTest):
                 self.assert_exit(result, 0)
                 self.assertEqual(
                     png(self.folder / "p.png"), png(self.folder / "r.png"))
+
+    def test_written_materials_are_shaded_by_their_maps(self):
+        """An OBJ, with what its MTL names, looks as its mapping did."""
+        written, preview = self.folder / "a.obj", self.folder / "p.png"
+        size = ("--size", "96x72", "--samples", "2", "-q")
+        self.assert_exit(self.run_program(
+            "map", CAGES / "torus.obj", "--material",
+            CAGES.parent / "materials" / "waves", "--scale", "4", "--level",
+            "2", "-o", written, "--preview", preview, *size), 0)
+        self.assert_exit(self.run_program(
+            "render", written, "-o", self.folder / "r.png", *size), 0)
+        self.assert_exit(self.run_program(
+            "render", written, "-o", self.folder / "m.png", "--plain", *size), 0)
+        near = difference(preview, self.folder / "r.png")
+        self.assertLess(near, 1.5)
+        self.assertGreater(difference(preview, self.folder / "m.png"), 4 * near)
+        # A map that does not lie on the colour is left out, with a word.
+        (self.folder / "a_roughness.exr").unlink()
+        (self.folder / "a_normal.exr").write_bytes(EXEMPLAR.read_bytes()[:99])
+        result = self.run_program(
+            "render", written, "-o", self.folder / "n.png", *size[:-1])
+        self.assert_exit(result, 0)
+        self.assertIn("a_roughness.exr: the map is not there", result.stderr)
+        self.assertIn("the maps of its texture are left out", result.stderr)
 
     def test_bakes_do_too(self):
         result = self.run_program(

@@ -22,7 +22,9 @@ what_pictures_need_is_read(void **state)
     const otx_mtl mtl = parse(
         *state, "# lib\nnewmtl  red paint \nNs 10\nKa 0 0 0\nKd 1 .5 0\n"
                 "map_Kd my tex.exr\nmap_Bump x.png\nnewmtl b\n\tKd .25\n"
-                "newmtl c\nKd xyz 1 2 3\nillum 2\nmap_Kd\n");
+                "newmtl c\nKd xyz 1 2 3\nillum 2\nmap_Kd\n"
+                "map_Pr -imfchan g r.png\nmap_Pm m.png\nnorm n.png\n"
+                "disp h.exr\n");
 
     assert_int_equal(mtl.count, 3);
     assert_string_equal(mtl.materials[0].name, "red paint");
@@ -33,6 +35,11 @@ what_pictures_need_is_read(void **state)
     assert_null(mtl.materials[1].map_kd);
     assert_true(mtl.materials[2].diffuse[0] == 1);
     assert_null(mtl.materials[2].map_kd);
+    assert_string_equal(mtl.materials[2].maps.roughness, "r.png");
+    assert_string_equal(mtl.materials[2].maps.metalness, "m.png");
+    assert_string_equal(mtl.materials[2].maps.normal, "n.png");
+    assert_string_equal(mtl.materials[2].maps.height, "h.exr");
+    assert_null(mtl.materials[0].maps.normal);
 }
 
 static void
