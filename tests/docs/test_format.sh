@@ -15,5 +15,5 @@ case $(clang-format --version) in
     exit 77
     ;;
 esac
-find osdtex include tests \( -name '*.c' -o -name '*.h' -o -name '*.cpp' \) |
+find osdtex include tests tools \( -name '*.c' -o -name '*.h' -o -name '*.cpp' \) |
     LC_ALL=C sort | xargs clang-format --dry-run -Werror

@@ -140,6 +140,7 @@ class Deps(unittest.TestCase):
         # The tree's own, wherever they are: scripts for Blender, say.
         own = {p.stem for folder in ("tests", "tools", "osdtex")
                for p in (ROOT / folder).rglob("*.py")}
+        own |= {p.parent.name for p in (ROOT / "tools").rglob("__init__.py")}
         known = set(sys.stdlib_module_names) | own | INSIDE_BLENDER
         for path in python_files():
             for name in set(imports(ast.parse(path.read_text()))) - known:
