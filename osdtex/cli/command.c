@@ -1,6 +1,7 @@
 /* command.c -- the table of sub-commands. */
 #include "cli/command.h"
 #include "cli/session.h"
+#include "studio/studio.h"
 #include "word/near.h"
 
 #include <string.h>
@@ -184,6 +185,19 @@ static const otx_flag_id field_flags[] = {
     OTX_FLAG_VERBOSE,      OTX_FLAG_QUIET,       OTX_FLAG_HELP,
     OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
 
+static const otx_flag_id studio_flags[] = {
+    OTX_FLAG_METHOD,       OTX_FLAG_OUTPUT,      OTX_FLAG_SCALE,
+    OTX_FLAG_LEVEL,        OTX_FLAG_SEED,        OTX_FLAG_SET,
+    OTX_FLAG_ALSO,         OTX_FLAG_FIRST_PATCH, OTX_FLAG_CONSTRAINTS,
+    OTX_FLAG_FOLLOW,       OTX_FLAG_ALONG,       OTX_FLAG_EXEMPLAR_CLASS,
+    OTX_FLAG_GENERATORS,   OTX_FLAG_NO_BROWSER,  OTX_FLAG_SCHEME,
+    OTX_FLAG_BOUNDARY,     OTX_FLAG_FVAR,        OTX_FLAG_WELD,
+    OTX_FLAG_FROM,         OTX_FLAG_LAYER,       OTX_FLAG_TO,
+    OTX_FLAG_MATCH_SPACE,  OTX_FLAG_MATCH_IN,    OTX_FLAG_WRAP,
+    OTX_FLAG_TILEABLE,     OTX_FLAG_COLORCONFIG, OTX_FLAG_THREADS,
+    OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_QUIET,       OTX_FLAG_HELP,
+    OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
+
 static const otx_flag_id regress_flags[] = {
     OTX_FLAG_OUTPUT, OTX_FLAG_UPDATE_CASE, OTX_FLAG_PROGRAM, OTX_FLAG_HISTORY,
     OTX_FLAG_QUIET,  OTX_FLAG_HELP,        OTX_FLAG_VERSION, OTX_FLAG_COUNT};
@@ -285,6 +299,21 @@ static const otx_command commands[] = {
      "4\n",
      "a .png or .exr for a picture, a .csv for the directions", field_flags,
      otx_field_command_run, true},
+    {"studio", "CAGE.obj EXEMPLAR...", 2, 1 + OTX_STUDIO_EXEMPLARS_MAX,
+     "direct a texture by hand, on a page in the browser",
+     "Serves a page on which the textured model is turned, looked at and "
+     "directed:\ncomb directions, brush sizes, choose the first patch and the "
+     "exemplar. Each\ngesture is a constraint in a file that `osdtex map "
+     "--constraints` reads, which is\nsaved as it changes; the page shows the "
+     "command. Only this machine can open the\npage, by the address that is "
+     "printed. Ctrl-C ends it.",
+     "osdtex studio models/cages/creature.obj models/exemplars/scales_cut.png\n"
+     "osdtex studio shirt.obj weave.exr denim.exr -o out/shirt.obj --scale "
+     "12\n",
+     "DIR/NAME.obj, for when the page exports; NAME_constraints.json and "
+     "NAME_state.json are beside it, and what they hold is gone on from "
+     "(default: CAGE_studio.obj beside the cage)",
+     studio_flags, otx_studio_command_run, false},
     {"regress", "DIR [CASE...]", 1, OTX_FLAG_OPERANDS_MAX,
      "run a table of cases and compare them with their references",
      "Runs the cases of DIR/table.json and holds them against DIR/reference: "

@@ -53,6 +53,7 @@ int otx_tiles_command_run(const otx_flag_values *values);
 int otx_stack_command_run(const otx_flag_values *values);
 int otx_bake_command_run(const otx_flag_values *values);
 int otx_field_command_run(const otx_flag_values *values);
+int otx_studio_command_run(const otx_flag_values *values);
 int otx_render_command_run(const otx_flag_values *values);
 int otx_regress_command_run(const otx_flag_values *values);
 int otx_plan_command_run(const otx_flag_values *values);

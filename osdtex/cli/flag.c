@@ -330,6 +330,9 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_NO_SHADOWS] =
         {"no-shadows", 0, OTX_FLAG_GROUP_PICTURE, NULL,
          "light that the model does not keep off itself"},
+    [OTX_FLAG_NO_BROWSER] =
+        {"no-browser", 0, OTX_FLAG_GROUP_MAIN, NULL,
+         "only print the page's address, and open no browser"},
     [OTX_FLAG_THREADS] =
         {"threads", 0, OTX_FLAG_GROUP_COMMON, "N",
          "threads, 0 for all cores; the result does not depend on it (default: "

@@ -328,9 +328,9 @@ parse_save(otx_map_flags *r)
     return false;
 }
 
-bool
-otx_map_flags_parse(
-    const otx_flag_values *values, bool bake_only, otx_map_flags *r)
+/* Defaults, and what the flags say of cage and exemplars. */
+static bool
+begin(const otx_flag_values *values, bool bake_only, otx_map_flags *r)
 {
     *r = (otx_map_flags){
         .values = values,
@@ -342,13 +342,32 @@ otx_map_flags_parse(
     r->map_options.method = values->text[OTX_FLAG_METHOD];
     r->preview = values->text[OTX_FLAG_PREVIEW];
     r->report = values->text[OTX_FLAG_JSON_REPORT];
-    if (!otx_inputs_cage(values, &r->cage_options) ||
-        !otx_inputs_exemplar(values, &r->exemplar_options) ||
-        !otx_bake_flags_parse(values, &r->bake_options) ||
-        !otx_picture_flags_parse(values, &r->picture) ||
-        !otx_also_flags_parse(values, &r->also) || !name_outputs(r) ||
-        !parse_numbers(r) || !parse_tile_level(r) || !parse_first_patch(r) ||
-        !parse_fields(r) || !parse_heal(r))
+    return otx_inputs_cage(values, &r->cage_options) &&
+           otx_inputs_exemplar(values, &r->exemplar_options) &&
+           otx_bake_flags_parse(values, &r->bake_options) &&
+           otx_picture_flags_parse(values, &r->picture) &&
+           otx_also_flags_parse(values, &r->also);
+}
+
+/* What they say of the mapping. */
+static bool
+parse_mapping(otx_map_flags *r)
+{
+    return parse_numbers(r) && parse_tile_level(r) && parse_first_patch(r) &&
+           parse_fields(r) && parse_heal(r);
+}
+
+bool
+otx_map_flags_parse_mapping(const otx_flag_values *values, otx_map_flags *r)
+{
+    return begin(values, false, r) && parse_mapping(r) && cage_comes_first(r);
+}
+
+bool
+otx_map_flags_parse(
+    const otx_flag_values *values, bool bake_only, otx_map_flags *r)
+{
+    if (!begin(values, bake_only, r) || !name_outputs(r) || !parse_mapping(r))
         return false;
     /* Then the textures are PNG themselves. */
     if (strcmp(texture_extension(r), ".png") == 0)

@@ -37,6 +37,10 @@ typedef struct otx_map_flags
 bool otx_map_flags_parse(
     const otx_flag_values *values, bool bake_only, otx_map_flags *out);
 
+/* The same of a command that writes nothing by itself: options only. */
+bool
+otx_map_flags_parse_mapping(const otx_flag_values *values, otx_map_flags *out);
+
 /* Names the textures, of which a saved mapping knows how many there are. False
  * after saying what is wrong. */
 bool otx_map_flags_name(otx_map_flags *request);

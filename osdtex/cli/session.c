@@ -236,6 +236,7 @@ otx_session_begin(otx_session *session, const otx_flag_values *values)
     options.log = put_finding;
     options.log_user = session;
     options.colorconfig = values->text[OTX_FLAG_COLORCONFIG];
+    session->options = options;
     otx_stop_listen();
     status = osdtex_context_create(&options, &session->context);
     if (status == OSDTEX_OK)

@@ -9,6 +9,7 @@
 typedef struct otx_session
 {
     osdtex_context *context;
+    osdtex_context_options options; /* that it was made by */
     const otx_flag_values *values;
     otx_console console;
     bool error_is_told;

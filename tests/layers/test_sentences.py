@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = {"cli", "bench", "regress", "farm"}
+PROGRAM = {"cli", "bench", "regress", "farm", "studio"}
 LITERAL = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 
 

@@ -9,7 +9,8 @@
 set(paths CMakeLists.txt)
 file(GLOB_RECURSE found RELATIVE ${SOURCE} LIST_DIRECTORIES false
   ${SOURCE}/osdtex/*.c ${SOURCE}/osdtex/*.cpp ${SOURCE}/osdtex/*.h
-  ${SOURCE}/include/*.h ${SOURCE}/tools/cmake/*)
+  ${SOURCE}/include/*.h ${SOURCE}/tools/cmake/*
+  ${SOURCE}/osdtex/studio/page/* ${SOURCE}/osdtex/studio/vendor/*)
 list(APPEND paths ${found})
 list(SORT paths)
 set(text "${HOW}")

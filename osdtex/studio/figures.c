@@ -1,0 +1,61 @@
+/* figures.c -- the numbers beside the picture. */
+#include "studio/figures.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Of the report, those that a person directs by. */
+static const char *const SHOWN[] = {
+    "seams.visible_share", "seams.energy", "seams.delta_e_p50",
+    "seams.length_texels", "distortion.stretch_ratio_p95"};
+
+static json_t *
+report_figures(osdtex_context *context, const osdtex_mapping *mapping)
+{
+    osdtex_report_options options = osdtex_report_options_default();
+    osdtex_report *report;
+    json_t *rows = NULL;
+
+    options.windows = 0;
+    if (osdtex_report_create(context, mapping, &options, &report) != OSDTEX_OK)
+        return NULL;
+
+    const osdtex_report_info *info = osdtex_report_describe(report);
+
+    rows = json_array();
+    for (int32_t i = 0; i < info->figure_count; ++i)
+        for (size_t k = 0; k < sizeof SHOWN / sizeof *SHOWN; ++k)
+            if (strcmp(info->figures[i].key, SHOWN[k]) == 0 &&
+                isfinite(info->figures[i].value))
+                json_array_append_new(
+                    rows,
+                    json_pack(
+                        "{s:s, s:f, s:s, s:s}", "key", info->figures[i].key,
+                        "value", info->figures[i].value, "unit",
+                        info->figures[i].unit, "sentence",
+                        info->figures[i].sentence));
+    osdtex_report_destroy(report);
+    return rows;
+}
+
+json_t *
+otx_figures_of(osdtex_context *context, const otx_snapshot *s)
+{
+    const osdtex_mapping_info *m = osdtex_mapping_describe(s->mapping);
+    json_t *rows = report_figures(context, s->mapping);
+    osdtex_exemplar_structure structure;
+
+    if (!rows)
+        return NULL;
+    if (osdtex_exemplar_analyse(context, s->exemplars[0], &structure) !=
+        OSDTEX_OK)
+    {
+        json_decref(rows);
+        return NULL;
+    }
+    return json_pack(
+        "{s:i, s:i, s:s, s:f, s:s, s:i, s:o}", "faces", (int)m->face_count,
+        "patches", (int)m->patch_count, "method", m->method, "scale", m->scale,
+        "class", structure.name, "symmetry", (int)structure.symmetry, "rows",
+        rows);
+}

@@ -1,0 +1,38 @@
+/* snapshot.h -- what the page shows: a mapping with all that is told of it.
+ *
+ * Made by the thread that maps, read by those that answer; it lives as long as
+ * somebody has it. */
+#ifndef OTX_STUDIO_SNAPSHOT_H
+#define OTX_STUDIO_SNAPSHOT_H
+
+#include <osdtex/osdtex.h>
+
+#include <jansson.h>
+#include <stdatomic.h>
+
+enum
+{
+    OTX_SNAPSHOT_EXEMPLARS_MAX = OSDTEX_EXEMPLARS_MAX
+};
+
+typedef struct otx_snapshot
+{
+    atomic_int holders;
+    int64_t serial;
+    int64_t surface_serial; /* another number, other points and faces */
+    int64_t revision;       /* of the recipe that it is of */
+    osdtex_mapping *mapping;
+    osdtex_field *field; /* NULL none */
+    const osdtex_exemplar *exemplars[OTX_SNAPSHOT_EXEMPLARS_MAX];
+    int exemplar; /* which of those to choose among the first is */
+    double seconds;
+} otx_snapshot;
+
+/* Takes the mapping and the field; NULL when memory is out, and then they stay
+ * the caller's. One holder. */
+otx_snapshot *otx_snapshot_make(osdtex_mapping *mapping, osdtex_field *field);
+/* NULL for NULL. */
+otx_snapshot *otx_snapshot_hold(otx_snapshot *snapshot);
+void otx_snapshot_release(otx_snapshot *snapshot);
+
+#endif

@@ -1,0 +1,367 @@
+/* worker.c -- the thread that maps whatever recipe is newest. */
+#include "studio/worker.h"
+
+#include "studio/figures.h"
+#include "studio/recipe.h"
+#include "studio/sentence.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static double
+now(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Whether what is at work is still wanted; under the lock. */
+static bool
+is_wanted(const otx_studio_worker *w)
+{
+    const otx_desk *desk = w->desk;
+
+    return !desk->is_closing && !desk->work.is_cancelled &&
+           desk->past.revision == w->taken;
+}
+
+/* Tells the page of steps of a fiftieth. */
+static bool
+show_progress(void *user, const char *stage, double fraction)
+{
+    otx_studio_worker *w = user;
+    otx_desk_work *work = &w->desk->work;
+    bool goes_on;
+
+    pthread_mutex_lock(&w->desk->lock);
+    goes_on = is_wanted(w);
+    if (strcmp(work->stage, stage) != 0 || fraction < work->fraction ||
+        fraction > work->fraction + 0.02)
+    {
+        snprintf(work->stage, sizeof work->stage, "%s", stage);
+        work->fraction = fraction;
+        otx_desk_touch(w->desk);
+    }
+    pthread_mutex_unlock(&w->desk->lock);
+    return goes_on;
+}
+
+static osdtex_status
+read_exemplar(otx_studio_worker *w, int index)
+{
+    if (w->exemplars[index])
+        return OSDTEX_OK;
+    return osdtex_exemplar_read(
+        w->context, w->desk->options->exemplars[index],
+        &w->desk->options->exemplar, &w->exemplars[index]);
+}
+
+/* The surface as `osdtex map` refines it; kept while it would be the same. */
+static osdtex_status
+refine(otx_studio_worker *w, int index, osdtex_map_options *map)
+{
+    osdtex_surface_options surface = w->desk->options->surface;
+    osdtex_job job = osdtex_job_none();
+    osdtex_forecast forecast;
+    osdtex_status status;
+
+    if (w->surface && w->surface_exemplar == index &&
+        w->surface_scale == map->scale)
+        return OSDTEX_OK;
+    osdtex_surface_destroy(w->surface);
+    w->surface = NULL;
+    job.surface = &surface;
+    job.map = map;
+    status = osdtex_preflight(
+        w->context, w->desk->options->cage, w->exemplars[index], &job,
+        &forecast);
+    if (status != OSDTEX_OK)
+        return status;
+    w->surface_exemplar = index;
+    w->surface_scale = map->scale;
+    w->scale = forecast.scale;
+    surface.leaf_edge =
+        osdtex_exemplar_leaf_edge(w->exemplars[index], forecast.scale);
+    ++w->surface_serial;
+    return osdtex_surface_refine(
+        w->context, w->desk->options->cage, &surface, &w->surface);
+}
+
+/* What is asked of the field, for the page to show. */
+static osdtex_status
+solve_field(
+    otx_studio_worker *w, const osdtex_map_options *map, osdtex_field **out)
+{
+    osdtex_field_options options = osdtex_field_options_default();
+
+    options.constraints = map->constraints;
+    options.follow = map->follow;
+    return osdtex_field_create(w->context, w->surface, &options, out);
+}
+
+static osdtex_status
+map_recipe(otx_studio_worker *w, const json_t *recipe, otx_snapshot **out)
+{
+    const int index = otx_recipe_exemplar(recipe);
+    osdtex_map_options map = w->desk->options->map;
+    osdtex_mapping *mapping = NULL;
+    osdtex_field *field = NULL;
+    osdtex_status status = read_exemplar(w, index);
+
+    *out = NULL;
+    otx_recipe_apply(recipe, &map);
+    map.constraints = w->desk->options->files->constraints;
+    if (status == OSDTEX_OK)
+        status = refine(w, index, &map);
+    map.surface = w->surface;
+    map.scale = w->scale;
+    if (status == OSDTEX_OK)
+        status = osdtex_map(
+            w->context, w->desk->options->cage, w->exemplars[index], &map,
+            &mapping);
+    if (status == OSDTEX_OK)
+        status = solve_field(w, &map, &field);
+    if (status == OSDTEX_OK && !(*out = otx_snapshot_make(mapping, field)))
+        status = OSDTEX_ERROR_MEMORY;
+    if (status != OSDTEX_OK)
+    {
+        osdtex_field_destroy(field);
+        osdtex_mapping_destroy(mapping);
+        return status;
+    }
+    (*out)->exemplar = index;
+    (*out)->exemplars[0] = w->exemplars[index];
+    for (int k = 0; k < map.also_count; ++k)
+        (*out)->exemplars[k + 1] = map.also[k].exemplar;
+    return OSDTEX_OK;
+}
+
+/* Lays what came of it on the desk. */
+static void
+publish(
+    otx_studio_worker *w, otx_snapshot *made, osdtex_status status,
+    double seconds)
+{
+    otx_desk *desk = w->desk;
+
+    pthread_mutex_lock(&desk->lock);
+    desk->work.is_busy = false;
+    desk->work.stage[0] = '\0';
+    desk->work.error[0] = '\0';
+    if (status != OSDTEX_OK && status != OSDTEX_ERROR_CANCELLED)
+        otx_sentence(
+            desk->work.error, "%s", osdtex_context_error(w->context)->message);
+    if (made)
+    {
+        otx_snapshot_release(desk->snapshot);
+        made->serial = desk->serial;
+        made->surface_serial = w->surface_serial;
+        made->revision = w->taken;
+        made->seconds = seconds;
+        desk->snapshot = made;
+    }
+    otx_desk_touch(desk);
+    pthread_mutex_unlock(&desk->lock);
+    osdtex_diagnostic_clear(w->context);
+}
+
+static void
+map_newest(otx_studio_worker *w, json_t *recipe)
+{
+    const double begun = now();
+    otx_snapshot *made;
+    const osdtex_status status = map_recipe(w, recipe, &made);
+
+    publish(w, made, status, now() - begun);
+}
+
+/* Measures what is shown; a newer recipe cancels that, too. */
+static void
+measure(otx_studio_worker *w)
+{
+    otx_snapshot *shown = otx_desk_snapshot(w->desk);
+    json_t *figures = shown ? otx_figures_of(w->context, shown) : NULL;
+
+    pthread_mutex_lock(&w->desk->lock);
+    w->desk->work.stage[0] = '\0';
+    if (shown && (figures || is_wanted(w)))
+    {
+        json_decref(w->desk->work.figures);
+        w->desk->work.figures = figures;
+        w->desk->work.figures_of = shown->serial;
+    }
+    otx_desk_touch(w->desk);
+    pthread_mutex_unlock(&w->desk->lock);
+    otx_snapshot_release(shown);
+    osdtex_diagnostic_clear(w->context);
+}
+
+/* -- exporting ------------------------------------------------------------ */
+
+/* A file of another program is not replaced. */
+static bool
+may_replace(const char *path)
+{
+    osdtex_output_mark mark;
+    FILE *file = fopen(path, "rb");
+
+    if (!file)
+        return true;
+    fclose(file);
+    osdtex_outputs_inspect(path, false, &mark);
+    return mark.is_ours;
+}
+
+static osdtex_status
+write_model(otx_studio_worker *w, const otx_snapshot *shown)
+{
+    const otx_studio_files *files = w->desk->options->files;
+    osdtex_status status = osdtex_outputs_begin(w->context);
+
+    if (status != OSDTEX_OK)
+        return status;
+    status = osdtex_outputs_mark(w->context, NULL, files->constraints);
+    if (status == OSDTEX_OK)
+        status = osdtex_mapping_write(
+            w->context, shown->mapping, files->model, NULL);
+    if (status == OSDTEX_OK)
+        status = osdtex_mapping_save(w->context, shown->mapping, files->saved);
+    if (status == OSDTEX_OK)
+        return osdtex_outputs_commit(w->context);
+    osdtex_outputs_drop(w->context);
+    return status;
+}
+
+static void
+export_shown(otx_studio_worker *w)
+{
+    const otx_studio_files *files = w->desk->options->files;
+    otx_snapshot *shown = otx_desk_snapshot(w->desk);
+    char told[OTX_STUDIO_ERROR_BYTES] = "there is nothing to export yet";
+
+    if (shown && (!may_replace(files->model) || !may_replace(files->saved)))
+        otx_sentence(
+            told, "%s was not written by osdtex; start with another -o",
+            may_replace(files->model) ? files->saved : files->model);
+    else if (shown && write_model(w, shown) == OSDTEX_OK)
+        otx_sentence(
+            told,
+            "wrote %s, its material and texture, and "
+            "%s",
+            files->model, files->saved);
+    else if (shown)
+        otx_sentence(told, "%s", osdtex_context_error(w->context)->message);
+    otx_snapshot_release(shown);
+    pthread_mutex_lock(&w->desk->lock);
+    otx_sentence(w->desk->work.told, "%s", told);
+    w->desk->work.is_busy = false;
+    w->desk->work.stage[0] = '\0';
+    otx_desk_touch(w->desk);
+    pthread_mutex_unlock(&w->desk->lock);
+}
+
+/* -- the thread ----------------------------------------------------------- */
+
+typedef enum task
+{
+    MAP,
+    MEASURE,
+    EXPORT,
+    END
+} task;
+
+/* What is to be done next; under the lock, which is let go while nothing is. */
+static task
+wait_for_task(otx_studio_worker *w)
+{
+    otx_desk *desk = w->desk;
+
+    for (;;)
+    {
+        if (desk->is_closing)
+            return END;
+        if (!desk->work.is_cancelled && desk->work.tried != desk->past.revision)
+            return MAP;
+        if (desk->work.wants_export)
+            return EXPORT;
+        if (desk->snapshot && !desk->work.is_cancelled &&
+            desk->work.figures_of != desk->snapshot->serial &&
+            desk->snapshot->revision == desk->past.revision)
+            return MEASURE;
+        pthread_cond_wait(&desk->changed, &desk->lock);
+    }
+}
+
+/* Takes the next task; of a recipe to be mapped a copy, else NULL. */
+static task
+take_task(otx_studio_worker *w, json_t **recipe)
+{
+    otx_desk *desk = w->desk;
+    task next;
+
+    pthread_mutex_lock(&desk->lock);
+    next = wait_for_task(w);
+    *recipe = next == MAP ? json_deep_copy(otx_past_now(&desk->past)) : NULL;
+    w->taken = desk->past.revision;
+    if (next == MAP)
+        desk->work.tried = w->taken;
+    if (next == EXPORT)
+        desk->work.wants_export = false;
+    desk->work.is_busy = next != MEASURE;
+    desk->work.fraction = 0.0;
+    otx_desk_touch(desk);
+    pthread_mutex_unlock(&desk->lock);
+    return next;
+}
+
+static void *
+work(void *user)
+{
+    otx_studio_worker *w = user;
+
+    for (;;)
+    {
+        json_t *recipe;
+        const task next = take_task(w, &recipe);
+
+        if (next == END)
+            return NULL;
+        if (next == MAP && recipe)
+            map_newest(w, recipe);
+        else if (next == MEASURE)
+            measure(w);
+        else if (next == EXPORT)
+            export_shown(w);
+        json_decref(recipe);
+    }
+}
+
+bool
+otx_worker_start(otx_desk *desk, otx_studio_worker *w)
+{
+    osdtex_context_options options = desk->options->context;
+
+    *w = (otx_studio_worker){.desk = desk};
+    options.progress = show_progress;
+    options.progress_user = w;
+    options.log = NULL;
+    if (osdtex_context_create(&options, &w->context) != OSDTEX_OK)
+        return false;
+    w->is_started = pthread_create(&w->thread, NULL, work, w) == 0;
+    return w->is_started;
+}
+
+void
+otx_worker_join(otx_studio_worker *w)
+{
+    if (w->is_started)
+        pthread_join(w->thread, NULL);
+    osdtex_surface_destroy(w->surface);
+    for (int i = 0; i < OTX_STUDIO_EXEMPLARS_MAX; ++i)
+        osdtex_exemplar_destroy(w->exemplars[i]);
+    osdtex_context_destroy(w->context);
+}

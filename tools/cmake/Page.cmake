@@ -1,0 +1,33 @@
+# Writes the files of a page as one C source, the table of
+# osdtex/studio/page_file.h; run by the build:
+#
+#     cmake -DOUTPUT=FILE "-DFILES=NAME|FILE;NAME|FILE..." -P Page.cmake
+set(text "/* The files of the page; see studio/page_file.h. */\n")
+string(APPEND text "#include \"studio/page_file.h\"\n\n")
+set(rows "")
+set(index 0)
+foreach(row ${FILES})
+  string(REPLACE "|" ";" words ${row})
+  list(GET words 0 name)
+  list(GET words 1 path)
+  file(READ ${path} hex HEX)
+  string(REGEX REPLACE "(................................)" "\\1\n" hex "${hex}")
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," hex "${hex}")
+  string(APPEND text "static const unsigned char data_${index}[] = {\n${hex}};\n")
+  if(name MATCHES "\\.js$")
+    set(type "text/javascript; charset=utf-8")
+  elseif(name MATCHES "\\.css$")
+    set(type "text/css; charset=utf-8")
+  else()
+    set(type "text/html; charset=utf-8")
+  endif()
+  if(name STREQUAL "index.html")
+    set(name "")
+  endif()
+  string(APPEND rows
+    "    {\"${name}\", \"${type}\", data_${index}, sizeof data_${index}},\n")
+  math(EXPR index "${index} + 1")
+endforeach()
+string(APPEND text "\nconst otx_page_file otx_page_files[] = {\n${rows}")
+string(APPEND text "    {NULL, NULL, NULL, 0}};\n")
+file(WRITE ${OUTPUT} "${text}")
