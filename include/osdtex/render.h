@@ -53,7 +53,10 @@ typedef struct osdtex_render_options
     int32_t unlit;    /* 1: the colours as they are */
     const char *show; /* "texture", "patches", "stretch", "seams", "uv",
                        * "normals", "flat", "field", "singularities",
-                       * "cells", "windows" (of a mapping);
+                       * "cells", "windows" (of a mapping),
+                       * "clay": grey with a highlight, "sheet": a contact
+                       * sheet of texture, patches, seams, stretch, field and
+                       * the three worst seams;
                        * NULL: texture */
     const char *view; /* "three_quarter", "front", "back", "left", "right",
                        * "top"; "seam1" to "seam99": close to the places
@@ -73,6 +76,9 @@ typedef struct osdtex_render_options
     int32_t orbit;       /* 1: `view` is as far away as holds the model at every
                           * `turn`, for frames of a turntable; 0: as near as
                           * fills the picture */
+    int32_t wire;        /* 1: edges are drawn over it: of a mapping those of
+                          * its cage, else of the model's faces */
+    int32_t uv_lines;    /* 1: lines of equal u and v, eight to the texture */
 } osdtex_render_options;
 
 static inline osdtex_render_options

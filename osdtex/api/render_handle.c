@@ -1,6 +1,7 @@
 /* render_handle.c -- a picture of a model. */
 #include "api/call.h"
 #include "api/cell_view.h"
+#include "api/contact_sheet.h"
 #include "api/field_view.h"
 #include "api/handle.h"
 #include "api/image_handle.h"
@@ -10,12 +11,15 @@
 #include "render/worst_seam.h"
 #include "word/near.h"
 
+#include <string.h>
+
 static const char *
 show_name(const void *list, int32_t index)
 {
     (void)list;
-    return index < OTX_SHOW_COUNT ? otx_render_show_name((otx_show)index)
-                                  : NULL;
+    return index < OTX_SHOW_COUNT    ? otx_render_show_name((otx_show)index)
+           : index == OTX_SHOW_COUNT ? OTX_CONTACT_SHEET
+                                     : NULL;
 }
 
 static const char *
@@ -64,6 +68,8 @@ options_of(
     out->turn = ours->turn;
     out->up = ours->up_axis ? OTX_UP_Z : OTX_UP_Y;
     out->orbit = ours->orbit != 0;
+    out->wire = ours->wire != 0;
+    out->uv_lines = ours->uv_lines != 0;
     if (ours->show && !otx_render_show_find(ours->show, &out->show))
         return no_such(run, "picture to show", ours->show, show_name);
     if (seam == 0 && ours->view &&
@@ -111,24 +117,18 @@ find_windows(otx_run *run, const osdtex_model *model, otx_scene *scene)
     return OSDTEX_OK;
 }
 
+/* One picture, options complete. */
 static otx_status
-render(
-    otx_run *run, const osdtex_model *model,
-    const osdtex_render_options *options, osdtex_image **out)
+draw(
+    otx_run *run, const osdtex_model *model, const osdtex_render_options *ours,
+    otx_image *out)
 {
-    osdtex_render_options ours = osdtex_render_options_default();
     otx_render_options how;
     otx_overlay overlay;
     otx_camera camera;
     otx_scene scene;
-    otx_image image;
 
-    if (!model)
-        return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, "render", OTX_NOWHERE,
-            "no model is given");
-    OTX_TRY(otx_call_options(run, &ours, sizeof ours, options));
-    OTX_TRY(options_of(run, model, &ours, &camera, &how));
+    OTX_TRY(options_of(run, model, ours, &camera, &how));
     if (model->guide &&
         (how.show == OTX_SHOW_FIELD || how.show == OTX_SHOW_SINGULARITIES))
     {
@@ -143,11 +143,30 @@ render(
         how.overlay = &overlay;
     }
     scene = model->scene;
-    if (ours.displace)
+    if (ours->displace)
         OTX_TRY(otx_scene_displace(run, &model->scene, &scene));
     if (how.show == OTX_SHOW_WINDOWS)
         OTX_TRY(find_windows(run, model, &scene));
-    OTX_TRY(otx_render(run, &scene, &how, &image));
+    return otx_render(run, &scene, &how, out);
+}
+
+static otx_status
+render(
+    otx_run *run, const osdtex_model *model,
+    const osdtex_render_options *options, osdtex_image **out)
+{
+    osdtex_render_options ours = osdtex_render_options_default();
+    otx_image image;
+
+    if (!model)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "render", OTX_NOWHERE,
+            "no model is given");
+    OTX_TRY(otx_call_options(run, &ours, sizeof ours, options));
+    if (ours.show && strcmp(ours.show, OTX_CONTACT_SHEET) == 0)
+        OTX_TRY(otx_contact_sheet_make(run, model, &ours, draw, &image));
+    else
+        OTX_TRY(draw(run, model, &ours, &image));
     return otx_image_handle_wrap(run, image, out);
 }
 

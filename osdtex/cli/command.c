@@ -38,9 +38,10 @@ static const otx_flag_id map_flags[] = {
     OTX_FLAG_SHOW,          OTX_FLAG_PLAIN,
     OTX_FLAG_DISPLACE,      OTX_FLAG_FOLLOW,
     OTX_FLAG_CAMERA,        OTX_FLAG_TURN,
-    OTX_FLAG_SIZE,          OTX_FLAG_SAMPLES,
-    OTX_FLAG_UNLIT,         OTX_FLAG_NO_SHADOWS,
-    OTX_FLAG_SAVE,          OTX_FLAG_COUNT};
+    OTX_FLAG_DRAW,          OTX_FLAG_SIZE,
+    OTX_FLAG_SAMPLES,       OTX_FLAG_UNLIT,
+    OTX_FLAG_NO_SHADOWS,    OTX_FLAG_SAVE,
+    OTX_FLAG_COUNT};
 
 static const otx_flag_id bake_flags[] = {
     OTX_FLAG_OUTPUT,
@@ -103,6 +104,7 @@ static const otx_flag_id bake_flags[] = {
     OTX_FLAG_PLAIN,
     OTX_FLAG_DISPLACE,
     OTX_FLAG_FOLLOW,
+    OTX_FLAG_DRAW,
     OTX_FLAG_CAMERA,
     OTX_FLAG_TURN,
     OTX_FLAG_SIZE,
@@ -164,15 +166,15 @@ static const otx_flag_id tiles_flags[] = {
     OTX_FLAG_COUNT};
 
 static const otx_flag_id render_flags[] = {
-    OTX_FLAG_FROM,        OTX_FLAG_OUTPUT,  OTX_FLAG_CAMERA,
-    OTX_FLAG_TURN,        OTX_FLAG_SIZE,    OTX_FLAG_SAMPLES,
-    OTX_FLAG_SHOW,        OTX_FLAG_PLAIN,   OTX_FLAG_DISPLACE,
-    OTX_FLAG_NO_SHADOWS,  OTX_FLAG_UNLIT,   OTX_FLAG_UP,
-    OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOLLOW,  OTX_FLAG_SYMMETRY,
-    OTX_FLAG_COLORCONFIG, OTX_FLAG_THREADS, OTX_FLAG_MEMORY_LIMIT,
-    OTX_FLAG_REPLACE,     OTX_FLAG_DRY_RUN, OTX_FLAG_VERBOSE,
-    OTX_FLAG_QUIET,       OTX_FLAG_HELP,    OTX_FLAG_VERSION,
-    OTX_FLAG_COUNT};
+    OTX_FLAG_FROM,    OTX_FLAG_OUTPUT,       OTX_FLAG_CAMERA,
+    OTX_FLAG_TURN,    OTX_FLAG_FRAMES,       OTX_FLAG_SIZE,
+    OTX_FLAG_SAMPLES, OTX_FLAG_SHOW,         OTX_FLAG_DRAW,
+    OTX_FLAG_PLAIN,   OTX_FLAG_DISPLACE,     OTX_FLAG_NO_SHADOWS,
+    OTX_FLAG_UNLIT,   OTX_FLAG_UP,           OTX_FLAG_CONSTRAINTS,
+    OTX_FLAG_FOLLOW,  OTX_FLAG_SYMMETRY,     OTX_FLAG_COLORCONFIG,
+    OTX_FLAG_THREADS, OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_REPLACE,
+    OTX_FLAG_DRY_RUN, OTX_FLAG_VERBOSE,      OTX_FLAG_QUIET,
+    OTX_FLAG_HELP,    OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
 
 static const otx_flag_id field_flags[] = {
     OTX_FLAG_OUTPUT,       OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOLLOW,
@@ -285,9 +287,12 @@ static const otx_command commands[] = {
      "level of the OBJ.",
      "osdtex render pebbles.obj -o pebbles.png --camera front --size 800x800\n"
      "osdtex render pebbles.obj -o patches.png --show patches --unlit\n"
+     "osdtex render --from pebbles.osdtex -o sheet.png --show sheet\n"
+     "osdtex render pebbles.obj -o turn.%04d.png --frames 48\n"
      "osdtex render wood.obj -o field.png --show field --constraints "
      "field.csv\n",
-     "a .png or .exr", render_flags, otx_render_command_run, true},
+     "a .png or .exr; NAME.%04d.png or .exr for the frames of a turntable",
+     render_flags, otx_render_command_run, true},
     {"field", "CAGE.obj", 1, 1, "show or write a direction field on a cage",
      "Solves for the field of directions that textures follow: the smoothest, "
      "or what\nconstraints and --follow ask for. A picture shows its lines, "

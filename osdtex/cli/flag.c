@@ -317,7 +317,17 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "normals, flat, field, "
          "singularities, cells or, of a mapping that is saved, windows: how "
          "far "
-         "what is seen is from the exemplar (default texture)"},
+         "what is seen is from the exemplar; clay: grey with a highlight; "
+         "sheet: a contact sheet with the three worst seams (default texture)"},
+    [OTX_FLAG_DRAW] =
+        {"draw", 0, OTX_FLAG_GROUP_PICTURE, "wire|uv|wire,uv",
+         "over the picture: wire, the edges of the cage, or of the faces of a "
+         "MODEL.obj; uv, lines of equal u (red) and v (green), eight to the "
+         "texture"},
+    [OTX_FLAG_FRAMES] =
+        {"frames", 0, OTX_FLAG_GROUP_PICTURE, "N",
+         "of a turntable, once round the named camera's vertical, into "
+         "-o NAME.%04d.png or .exr, numbered from 1 (default 48)"},
     [OTX_FLAG_UNLIT] =
         {"unlit", 0, OTX_FLAG_GROUP_PICTURE, NULL,
          "the colours as they are, without light"},

@@ -83,6 +83,8 @@ typedef enum otx_flag_id
     OTX_FLAG_SIZE,
     OTX_FLAG_SAMPLES,
     OTX_FLAG_SHOW,
+    OTX_FLAG_DRAW,
+    OTX_FLAG_FRAMES,
     OTX_FLAG_UNLIT,
     OTX_FLAG_PLAIN,
     OTX_FLAG_DISPLACE,

@@ -64,6 +64,30 @@ parse_size(const otx_flag_values *values, osdtex_render_options *out)
     return false;
 }
 
+static bool
+parse_draw(const otx_flag_values *values, osdtex_render_options *out)
+{
+    const char *text = values->text[OTX_FLAG_DRAW];
+
+    for (const char *at = text; at && *at;)
+    {
+        const size_t length = strcspn(at, ",");
+
+        if (length == 4 && strncmp(at, "wire", 4) == 0)
+            out->wire = 1;
+        else if (length == 2 && strncmp(at, "uv", 2) == 0)
+            out->uv_lines = 1;
+        else
+        {
+            otx_session_refuse(
+                "--draw takes wire, uv or wire,uv, not '%s'", text);
+            return false;
+        }
+        at += length + (at[length] == ',');
+    }
+    return true;
+}
+
 bool
 otx_picture_flags_up(const otx_flag_values *values, int32_t *out)
 {
@@ -98,6 +122,7 @@ otx_picture_flags_parse(
     out->displace = values->text[OTX_FLAG_DISPLACE] != NULL;
     out->no_shadows = values->text[OTX_FLAG_NO_SHADOWS] != NULL;
     if (!parse_camera(values, out) || !parse_size(values, out) ||
+        !parse_draw(values, out) ||
         !otx_picture_flags_up(values, &out->up_axis))
         return false;
     if (samples)

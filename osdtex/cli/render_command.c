@@ -7,6 +7,7 @@
 #include "cli/picture_flags.h"
 #include "cli/saved_files.h"
 #include "cli/session.h"
+#include "cli/turntable.h"
 #include "cli/value.h"
 
 #include <stdio.h>
@@ -16,6 +17,7 @@ typedef struct job
 {
     const char *path;
     const char *output;
+    otx_turntable turntable;
     bool dry_run;
     bool shows_field;
     osdtex_render_options picture;
@@ -26,7 +28,6 @@ typedef struct job
 
     osdtex_mapping *mapping;
     osdtex_model *model;
-    osdtex_image *image;
     osdtex_cage *cage; /* the model as a plain mesh; NULL without a field */
     osdtex_surface *surface;
     osdtex_field *field;
@@ -78,8 +79,16 @@ parse(job *j, const otx_flag_values *values)
             "osdtex render takes --from NAME.osdtex, not a colour space");
         return false;
     }
-    return otx_picture_flags_parse(values, &j->picture) &&
-           parse_field(j, values);
+    if (!otx_turntable_parse(values, &j->turntable) ||
+        !otx_picture_flags_parse(values, &j->picture) ||
+        !parse_field(j, values))
+        return false;
+    j->picture.orbit = j->turntable.frames > 0;
+    if (!j->picture.orbit || j->picture.fov == 0.0)
+        return true;
+    otx_session_refuse(
+        "a turntable is taken by a named --camera, not by an eye and a target");
+    return false;
 }
 
 static osdtex_status
@@ -108,13 +117,30 @@ join_field(osdtex_context *context, job *j)
 }
 
 static osdtex_status
+draw_frame(otx_session *session, const job *j, int i)
+{
+    char path[OTX_TURNTABLE_PATH_BYTES];
+    osdtex_render_options picture = j->picture;
+    osdtex_image *image;
+    osdtex_status status;
+
+    otx_turntable_name(&j->turntable, i, path);
+    picture.turn += otx_turntable_turn(&j->turntable, i);
+    status = osdtex_render(session->context, j->model, &picture, &image);
+    if (status == OSDTEX_OK)
+        status = osdtex_image_write(session->context, image, path);
+    osdtex_image_destroy(image);
+    return status;
+}
+
+static osdtex_status
 draw(otx_session *session, job *j)
 {
-    osdtex_status status =
-        osdtex_render(session->context, j->model, &j->picture, &j->image);
+    osdtex_status status = OSDTEX_OK;
 
-    if (status == OSDTEX_OK)
-        status = osdtex_image_write(session->context, j->image, j->output);
+    for (int i = 0; status == OSDTEX_OK && (i == 0 || i < j->turntable.frames);
+         ++i)
+        status = draw_frame(session, j, i);
     if (status == OSDTEX_OK)
         status = otx_session_commit(session);
     if (status == OSDTEX_OK)
@@ -154,21 +180,36 @@ render(otx_session *session, job *j)
     if (!j->dry_run)
         return draw(session, j);
     otx_session_print(
-        "would render %s into %s: %d x %d, %d x %d rays a pixel\n", j->path,
+        "would render %s into %s: %d x %d, %d x %d rays a pixel%s\n", j->path,
         j->output, j->picture.width, j->picture.height, j->picture.samples,
-        j->picture.samples);
+        j->picture.samples,
+        j->turntable.frames > 0 ? ", each frame of a turntable" : "");
     return OSDTEX_OK;
 }
 
 static void
 drop(const job *j)
 {
-    osdtex_image_destroy(j->image);
     osdtex_model_destroy(j->model);
     osdtex_mapping_destroy(j->mapping);
     osdtex_field_destroy(j->field);
     osdtex_surface_destroy(j->surface);
     osdtex_cage_destroy(j->cage);
+}
+
+static osdtex_status
+check_outputs(otx_session *session, const otx_flag_values *values, const job *j)
+{
+    otx_path_list outputs = {0};
+    osdtex_status status;
+
+    otx_turntable_outputs(&j->turntable, &outputs);
+    status = otx_guard_check(session, values, &outputs);
+    otx_path_list_free(&outputs);
+    return status == OSDTEX_OK
+               ? osdtex_outputs_mark(
+                     session->context, NULL, otx_saved_files_source(values))
+               : status;
 }
 
 int
@@ -185,7 +226,7 @@ otx_render_command_run(const otx_flag_values *values)
         return session.exit_code;
     status = otx_saved_files_take(&session, &all.inputs.saved);
     if (status == OSDTEX_OK)
-        status = otx_guard_check_flags(&session, &all);
+        status = check_outputs(&session, &all, &j);
     if (status == OSDTEX_OK)
         status = render(&session, &j);
     drop(&j);

@@ -27,6 +27,7 @@ static const char *const SHOW_NAMES[OTX_SHOW_COUNT] = {
     [OTX_SHOW_SINGULARITIES] = "singularities",
     [OTX_SHOW_CELLS] = "cells",
     [OTX_SHOW_WINDOWS] = "windows",
+    [OTX_SHOW_CLAY] = "clay",
 };
 
 /* What the tiles of a picture share. */

@@ -22,6 +22,7 @@ typedef enum otx_show
     OTX_SHOW_SINGULARITIES, /* the overlay's dots on a pale texture */
     OTX_SHOW_CELLS,         /* the overlay on a pale texture */
     OTX_SHOW_WINDOWS,       /* scene.face_windows as STRETCH is shown */
+    OTX_SHOW_CLAY,          /* grey with a highlight, and the normal map */
     OTX_SHOW_COUNT
 } otx_show;
 
@@ -40,6 +41,8 @@ typedef struct otx_render_options
     bool orbit;                 /* the view holds the model at every turn */
     double turn;                /* radians about what is up */
     double seam_width;          /* of the lines, pixels */
+    bool wire;                  /* edges are drawn over it: see lines.h */
+    bool uv_lines;              /* lines of equal u and of equal v, too */
     const otx_overlay *overlay; /* for FIELD, SINGULARITIES, CELLS */
 } otx_render_options;
 
@@ -47,7 +50,7 @@ typedef struct otx_render_options
 otx_render_options otx_render_defaults(void);
 
 /* "texture", "patches", "stretch", "seams", "uv", "normals", "flat", "field",
- * "singularities", "cells", "windows". */
+ * "singularities", "cells", "windows", "clay". */
 const char *otx_render_show_name(otx_show show);
 bool otx_render_show_find(const char *name, otx_show *out);
 

@@ -43,6 +43,8 @@ typedef struct otx_scene
     const int32_t
         *face_texture; /* [face_count], -1 none; NULL: all the first */
 
+    const int32_t *face_root; /* [face_count] which face of the cage each is a
+                               * part of; NULL: each one is its own */
     /* Shown as colours. NULL: patches are the islands of the UVs. */
     const int32_t *face_patch; /* [face_count] */
     /* Distortion, 1 is none. NULL: see render/distortion.h. */

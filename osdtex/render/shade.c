@@ -96,6 +96,9 @@ otx_shade_prepare(
         .light = otx_light_create(tracer, frame, !options->no_shadows),
         .light_rays = (PIXEL_RAYS + per_pixel - 1) / per_pixel,
     };
+    out->lines = (otx_lines){scene, tracer, &out->frame};
+    if (options->wire)
+        OTX_TRY(otx_lines_wire(run, scene, &out->wire));
     switch (options->show)
     {
     case OTX_SHOW_SEAMS:
@@ -231,50 +234,6 @@ texture_color(const otx_shade *shade, const otx_hit *hit, float rgb[3])
         rgb[c] = color[channels < 3 ? 0 : c];
 }
 
-static double
-distance_to_segment(otx_vec2 p, otx_vec2 a, otx_vec2 b)
-{
-    const otx_vec2 along = otx_vec2_sub(b, a);
-    const double length_sq = otx_vec2_dot(along, along);
-    const double t = length_sq > 0.0
-                         ? otx_vec2_dot(otx_vec2_sub(p, a), along) / length_sq
-                         : 0.0;
-    const otx_vec2 near = otx_vec2_lerp(a, b, fmin(fmax(t, 0.0), 1.0));
-
-    return otx_vec2_length(otx_vec2_sub(p, near));
-}
-
-static bool
-project_corner(const otx_shade *shade, int32_t corner, otx_vec2 *out)
-{
-    const otx_scene *scene = shade->scene;
-    const otx_vec3 p = otx_vec3_load(scene->points, scene->face_verts[corner]);
-
-    return otx_camera_project(
-        &shade->frame, otx_tracer_inside(shade->tracer, p), out);
-}
-
-/* Whether the sample is on the line drawn for a seam of its face. Distances
- * are taken in the picture, so that lines are as wide wherever they run. */
-static bool
-is_on_seam(const otx_shade *shade, int32_t face, otx_vec2 at)
-{
-    const int32_t first = shade->scene->face_first[face];
-    const int32_t end = shade->scene->face_first[face + 1];
-
-    for (int32_t c = first; c < end; ++c)
-    {
-        otx_vec2 a, b;
-
-        if (!shade->seam[c] || !project_corner(shade, c, &a) ||
-            !project_corner(shade, c + 1 < end ? c + 1 : first, &b))
-            continue;
-        if (distance_to_segment(at, a, b) < 0.5 * shade->options->seam_width)
-            return true;
-    }
-    return false;
-}
-
 /* The texture's lightness, so that what is drawn on it stands out. */
 static void
 pale_color(const otx_shade *shade, const otx_hit *hit, float rgb[3])
@@ -290,7 +249,9 @@ static void
 seam_color(
     const otx_shade *shade, const otx_hit *hit, otx_vec2 at, float rgb[3])
 {
-    if (is_on_seam(shade, hit->face, at))
+    if (otx_lines_on_edge(
+            &shade->lines, hit->face, at, shade->seam,
+            shade->options->seam_width))
         set_grey(0.012f, rgb);
     else
         pale_color(shade, hit, rgb);
@@ -402,10 +363,42 @@ surface_color(
         rgb[1] = (float)(0.5 + 0.5 * normal.y);
         rgb[2] = (float)(0.5 + 0.5 * normal.z);
         return;
+    case OTX_SHOW_CLAY:
+        set_grey(0.36f, rgb);
+        return;
     default:
         set_grey(0.5f, rgb);
         return;
     }
+}
+
+/* What is drawn over any picture. */
+static void
+draw_lines(
+    const otx_shade *shade, const otx_hit *hit, otx_vec2 at, float rgb[3])
+{
+    const otx_scene *scene = shade->scene;
+
+    if (shade->options->uv_lines && scene->uvs)
+    {
+        const footprint f = footprint_of(shade, hit);
+        double du[2] = {0.0, 0.0}, dv[2] = {0.0, 0.0};
+
+        for (int32_t i = 0; i < 3; ++i)
+        {
+            const otx_vec2 uv = corner_uv(scene, hit->corners[i]);
+
+            du[0] += f.dx[i] * uv.x;
+            du[1] += f.dy[i] * uv.x;
+            dv[0] += f.dx[i] * uv.y;
+            dv[1] += f.dy[i] * uv.y;
+        }
+        otx_lines_uv(hit_uv(scene, hit), du, dv, rgb);
+    }
+    if (shade->options->wire &&
+        otx_lines_on_edge(&shade->lines, hit->face, at, shade->wire, 1.0))
+        for (int32_t c = 0; c < 3; ++c)
+            rgb[c] *= 0.15f;
 }
 
 /* UVs and normals are numbers, which light would falsify. */
@@ -418,6 +411,9 @@ is_lit(const otx_render_options *options)
 
 /* ---- materials ------------------------------------------------------------
  */
+
+/* Of clay: a highlight as wide as shows dents, and no wider. */
+static const double CLAY_ROUGHNESS = 0.38;
 
 /* What the maps say at a hit. */
 typedef struct material
@@ -489,8 +485,13 @@ static material
 material_at(
     const otx_shade *shade, const otx_hit *hit, int32_t t, otx_vec3 normal)
 {
+    const bool clay = shade->options->show == OTX_SHOW_CLAY;
     const otx_scene *scene = shade->scene;
     const otx_map_textures *maps = scene->maps;
+
+    if (clay && (!maps || shade->options->plain || t < 0))
+        return (material){normal, CLAY_ROUGHNESS, 0.0, 1.0};
+
     const otx_show_view show = {
         scene->uvs,       scene->face_first,
         scene->lookups,   maps->carry.surface ? &maps->carry : NULL,
@@ -506,8 +507,8 @@ material_at(
         maps->channels, values);
     return (material){
         told_normal(scene, hit, &f, values, normal),
-        value_of(maps, values, OTX_COMPANION_ROUGHNESS),
-        value_of(maps, values, OTX_COMPANION_METALNESS),
+        clay ? CLAY_ROUGHNESS : value_of(maps, values, OTX_COMPANION_ROUGHNESS),
+        clay ? 0.0 : value_of(maps, values, OTX_COMPANION_METALNESS),
         value_of(maps, values, OTX_COMPANION_OCCLUSION)};
 }
 
@@ -554,6 +555,8 @@ light_material(
 static bool
 shows_material(const otx_shade *shade, const otx_hit *hit)
 {
+    if (shade->options->show == OTX_SHOW_CLAY)
+        return true;
     return shade->scene->maps && !shade->options->plain &&
            shade->options->show == OTX_SHOW_TEXTURE &&
            texture_of(shade->scene, hit->face) >= 0;
@@ -586,6 +589,7 @@ otx_shade_hit(
     const otx_vec3 normal = hit_normal(shade->scene, hit);
 
     surface_color(shade, hit, sample->at, normal, rgb);
+    draw_lines(shade, hit, sample->at, rgb);
     if (!is_lit(shade->options))
         return;
     if (shows_material(shade, hit))

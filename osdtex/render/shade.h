@@ -4,6 +4,7 @@
 
 #include "image/texture.h"
 #include "render/light.h"
+#include "render/lines.h"
 #include "render/render.h"
 #include "render/tracer.h"
 
@@ -19,7 +20,8 @@ typedef struct otx_shade
     /* Made only when they are shown. */
     const int32_t *patch;
     const float *stretch;
-    const uint8_t *seam;
+    const uint8_t *seam, *wire; /* [corner_count]; wire NULL: all */
+    otx_lines lines;
     otx_overlay_index overlay;
     int32_t light_rays; /* of each kind to a sample */
 } otx_shade;

@@ -226,14 +226,15 @@ is_beside(const place *a, const place *b)
     return true;
 }
 
-/* The place of that rank, of those that are sorted and show. */
-static const place *
-pick(const place *places, int32_t count, int32_t rank)
+/* The first `most` of those that are sorted, show and lie apart; how many there
+ * are. */
+static int32_t
+pick(const place *places, int32_t count, int32_t most, int32_t *shown)
 {
-    int32_t shown[OTX_WORST_SEAM_MAX], shown_count = 0;
+    int32_t shown_count = 0;
 
     for (int32_t i = 0;
-         i < count && shown_count < rank && places[i].badness > 0.0; ++i)
+         i < count && shown_count < most && places[i].badness > 0.0; ++i)
     {
         bool apart = true;
 
@@ -242,7 +243,7 @@ pick(const place *places, int32_t count, int32_t rank)
         if (apart)
             shown[shown_count++] = i;
     }
-    return &places[shown[shown_count - 1]];
+    return shown_count;
 }
 
 static otx_status
@@ -305,40 +306,74 @@ note_place(otx_run *run, int32_t rank, const place *p)
         p->badness / p->length / sqrt(3.0));
 }
 
+/* Places by how bad they are; `count` is 0 where there is no seam. In
+ * run->scratch. */
+static otx_status
+rank_places(
+    otx_run *run, const otx_scene *scene, place **places, int32_t *count,
+    double *cell)
+{
+    otx_vec3 centre, low;
+    double radius;
+
+    *count = 0;
+    if (!scene->uvs || scene->texture_count == 0)
+        return OSDTEX_OK;
+    otx_scene_bounds(scene, &centre, &radius);
+    low = otx_vec3_sub(centre, (otx_vec3){radius, radius, radius});
+    *cell = radius > 0.0 ? 2.0 * radius / CELLS : 1.0;
+    OTX_TRY(list_places(run, scene, low, *cell, places, count));
+    qsort(*places, (size_t)*count, sizeof **places, by_cell);
+    *count = merge(*places, *count);
+    qsort(*places, (size_t)*count, sizeof **places, by_badness);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_worst_seam_count(
+    otx_run *run, const otx_scene *scene, int32_t most, int32_t *out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    int32_t shown[OTX_WORST_SEAM_MAX], count;
+    place *places;
+    double cell;
+
+    *out = 0;
+    OTX_TRY(rank_places(run, scene, &places, &count, &cell));
+    if (count > 0)
+        *out = pick(places, count, most, shown);
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_worst_seam_camera(
     otx_run *run, const otx_scene *scene, int32_t rank, otx_camera *out)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    otx_vec3 centre, low;
-    double radius, cell;
+    int32_t shown[OTX_WORST_SEAM_MAX], count, found;
     place *places;
-    int32_t count;
+    double cell;
 
     if (!scene->uvs || scene->texture_count == 0)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "the model has no texture whose seams could be looked for");
-    otx_scene_bounds(scene, &centre, &radius);
-    low = otx_vec3_sub(centre, (otx_vec3){radius, radius, radius});
-    cell = radius > 0.0 ? 2.0 * radius / CELLS : 1.0;
-    OTX_TRY(list_places(run, scene, low, cell, &places, &count));
+    OTX_TRY(rank_places(run, scene, &places, &count, &cell));
     if (count == 0)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "the model has no seam to look at");
-    qsort(places, (size_t)count, sizeof *places, by_cell);
-    count = merge(places, count);
-    qsort(places, (size_t)count, sizeof *places, by_badness);
-    if (!(places[0].badness > 0.0))
+    found = pick(places, count, rank, shown);
+    if (found == 0)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "no seam of the model shows");
 
-    const place *shown = pick(places, count, rank);
+    const place *worst = &places[shown[found - 1]];
 
-    note_place(run, rank, shown);
-    *out = view_of(shown, PICTURE * cell);
+    note_place(run, rank, worst);
+    *out = view_of(worst, PICTURE * cell);
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }

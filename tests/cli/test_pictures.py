@@ -130,6 +130,66 @@ class Pictures(ProgramTest):
         mixed = sum(len({p[0] for p in row[:40]}) > 1 for row in rows)
         self.assertGreater(mixed, 100)
 
+    def render(self, name, *more, exit_code=0):
+        result = self.run_program(
+            "render", "--from", self.folder / "a.osdtex", "-o",
+            self.folder / name, "-q", *more)
+        self.assert_exit(result, exit_code)
+        return result.stderr
+
+    def test_a_turntable_goes_once_round(self):
+        self.map_with("a", "--save", self.folder / "a.osdtex")
+        self.render("t.%03d.png", "--frames", "4", *SMALL)
+        frames = [png(self.folder / f"t.00{i}.png") for i in (1, 2, 3, 4)]
+        self.assertEqual(len(list(self.folder.glob("t.*"))), 4)
+        for i in range(3):
+            self.assertNotEqual(frames[i], frames[i + 1])
+        said = self.render("t.png", "--frames", "4", exit_code=1)
+        self.assertIn("NAME.%04d.png", said)
+        self.assertIn("named --camera", self.render(
+            "u.%d.png", "--camera", "0,0,9,0,0,0,20", exit_code=1))
+        self.assertFalse(list(self.folder.glob("u.*")))
+
+    def test_a_contact_sheet_has_eight_panels(self):
+        """Each with its name on a dark ground at the upper left; the flat plane
+        has no field, which is shown as clay."""
+        self.map_with("a", "--save", self.folder / "a.osdtex")
+        self.render(
+            "s.png", "--show", "sheet", "--size", "256x128", "--samples", "1")
+        rows = png(self.folder / "s.png")
+        for j in (0, 64):
+            for i in (0, 64, 128, 192):
+                corner = [p for row in rows[j + 2:j + 9]
+                          for p in row[i + 2:i + 15]]
+                self.assertTrue(any(max(p) < 60 for p in corner), (i, j))
+                self.assertTrue(any(min(p) > 200 for p in corner), (i, j))
+        self.assertIn("64", self.render(
+            "s2.png", "--show", "sheet", "--size", "63x128", exit_code=1))
+
+    def test_lines_are_drawn(self):
+        """Wire darkens, lines of u are red and those of v green; each is gone
+        where it is not asked for."""
+        self.map_with("a", "--save", self.folder / "a.osdtex")
+        seen = {}
+        for draw in ("", "wire", "uv", "wire,uv"):
+            self.render(
+                f"d{draw}.png", "--show", "flat", "--unlit", "--size",
+                "200x150", "--samples", "2", *(("--draw", draw) if draw else ()))
+            pixels = [p for row in png(self.folder / f"d{draw}.png")
+                      for p in row]
+            bare = pixels if not draw else bare
+            seen[draw] = [
+                sum(p[0] > 2 * p[1] for p in pixels),
+                sum(p[1] > 2 * p[0] for p in pixels),
+                sum(max(p) < max(q) - 30 for p, q in zip(pixels, bare))]
+        self.assertEqual(seen[""], [0, 0, 0])
+        self.assertEqual(seen["wire"][:2], [0, 0])
+        self.assertGreater(seen["wire"][2], 50)
+        for draw in ("uv", "wire,uv"):
+            self.assertGreater(min(seen[draw][:2]), 50)
+        self.assertIn("--draw takes", self.render(
+            "e.png", "--draw", "mesh", exit_code=1))
+
     def test_what_has_no_use_is_said(self):
         said = self.map_with("a", "--camera", "front")
         self.assertEqual(said, "")

@@ -30,7 +30,7 @@ CHANGED = {
     "weld": "0.1", "layer": "beauty", "normals": None, "units": "mm",
     "up": "z", "material": "m", "map": "height=m.png", "height-range": "2",
     "normal-y": "down", "match-maps": "color,height",
-    "plain": None, "displace": None, "camera": "front", "turn": "30",
+    "plain": None, "displace": None, "camera": "front", "draw": "wire", "turn": "30",
     "size": "64x48", "samples": "1", "unlit": None, "no-shadows": None,
     "height-middle": "0",
 }
