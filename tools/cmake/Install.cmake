@@ -46,3 +46,14 @@ target_link_options(osdtex_shared PRIVATE
 set_target_properties(osdtex_shared PROPERTIES LINK_DEPENDS ${OSDTEX_EXPORTS})
 install(FILES tools/dcc/blender/osdtex_import.py
   DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex/blender)
+install(FILES tools/dcc/osdtex_cage.py tools/dcc/osdtex_job.py
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex)
+# The add-on as Blender installs it.
+find_program(OSDTEX_PYTHON3 NAMES python3)
+if(OSDTEX_PYTHON3)
+  install(CODE "execute_process(COMMAND ${OSDTEX_PYTHON3}
+    ${PROJECT_SOURCE_DIR}/tools/dcc/blender/make-addon
+    ${PROJECT_BINARY_DIR}/osdtex_blender.zip COMMAND_ERROR_IS_FATAL ANY)")
+  install(FILES ${PROJECT_BINARY_DIR}/osdtex_blender.zip
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex/blender)
+endif()

@@ -20,6 +20,7 @@ import re
 import sys
 from pathlib import Path
 
+import bmesh
 import bpy
 
 # The words of OpenSubdiv for how UVs are smoothed, and the modifier's.
@@ -77,9 +78,19 @@ def set_creases(mesh, tags):
     for edge, sharpness in creases.items():
         edge.crease = crease_of(sharpness)
     if tags.corners:
-        layer = (mesh.vertex_creases or [mesh.vertex_creases.new()])[0].data
-        for vertex, sharpness in tags.corners.items():
-            layer[vertex].value = crease_of(sharpness)
+        set_corners(mesh, tags.corners)
+
+
+def set_corners(mesh, corners):
+    """Before Blender 4 only bmesh makes the layer."""
+    shape = bmesh.new()
+    shape.from_mesh(mesh)
+    layer = shape.verts.layers.crease.verify()
+    shape.verts.ensure_lookup_table()
+    for vertex, sharpness in corners.items():
+        shape.verts[vertex][layer] = crease_of(sharpness)
+    shape.to_mesh(mesh)
+    shape.free()
 
 
 def subdivide(cage, tags, levels):
@@ -199,10 +210,18 @@ def drop_unused(tree):
                 tree.nodes.remove(node)
 
 
+def files_of(textures, material):
+    """Blender numbers a material whose name is taken."""
+    if not material:
+        return None
+    plain = re.sub(r"\.\d{3,}$", "", material.name)
+    return textures.get(material.name) or textures.get(plain)
+
+
 def show_textures(mesh, path):
     textures = textures_of(path)
     for material in mesh.materials:
-        files = textures.get(material.name) if material else None
+        files = files_of(textures, material)
         if not files or "map_Kd" not in files:
             continue
         surface = next(
