@@ -91,7 +91,7 @@ options_of(
 }
 
 static otx_status
-find_windows(otx_run *run, const osdtex_model *model, otx_scene *scene)
+find_windows(otx_run *run, const osdtex_model *model, const float **out)
 {
     otx_window_map map;
 
@@ -107,7 +107,7 @@ find_windows(otx_run *run, const osdtex_model *model, otx_scene *scene)
             "windows are not known of a mapping that is read without figures");
     OTX_TRY(otx_window_map_make(
         run, &model->mapping->mapping, model->mapping->exemplars, &map));
-    scene->face_windows = map.faces;
+    *out = map.faces;
     otx_note(
         run, OSDTEX_SEVERITY_INFO, "render", OTX_NOWHERE,
         "windows of 56 texels at an eighth of the resolution are %.3f times as "
@@ -146,7 +146,7 @@ draw(
     if (ours->displace)
         OTX_TRY(otx_scene_displace(run, &model->scene, &scene));
     if (how.show == OTX_SHOW_WINDOWS)
-        OTX_TRY(find_windows(run, model, &scene));
+        OTX_TRY(find_windows(run, model, &scene.face_windows));
     return otx_render(run, &scene, &how, out);
 }
 
