@@ -1,7 +1,10 @@
 /* figures.c -- the numbers beside the picture. */
 #include "studio/figures.h"
 
+#include "studio/joins.h"
+
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Of the report, those that a person directs by. */
@@ -38,24 +41,37 @@ report_figures(osdtex_context *context, const osdtex_mapping *mapping)
     return rows;
 }
 
+static json_t *
+worst_places(const otx_snapshot *s)
+{
+    const otx_joins joins = otx_joins_find(s);
+    json_t *places = otx_joins_places(s, &joins);
+
+    free(joins.items);
+    return places;
+}
+
 json_t *
 otx_figures_of(osdtex_context *context, const otx_snapshot *s)
 {
-    const osdtex_mapping_info *m = osdtex_mapping_describe(s->mapping);
-    json_t *rows = report_figures(context, s->mapping);
+    const osdtex_mapping_info *m = osdtex_mapping_describe(s->outcome->mapping);
+    json_t *rows = report_figures(context, s->outcome->mapping);
+    const osdtex_exemplar_info *e =
+        osdtex_exemplar_describe(s->outcome->exemplars[0]);
     osdtex_exemplar_structure structure;
 
     if (!rows)
         return NULL;
-    if (osdtex_exemplar_analyse(context, s->exemplars[0], &structure) !=
-        OSDTEX_OK)
+    if (osdtex_exemplar_analyse(
+            context, s->outcome->exemplars[0], &structure) != OSDTEX_OK)
     {
         json_decref(rows);
         return NULL;
     }
     return json_pack(
-        "{s:i, s:i, s:s, s:f, s:s, s:i, s:o}", "faces", (int)m->face_count,
-        "patches", (int)m->patch_count, "method", m->method, "scale", m->scale,
-        "class", structure.name, "symmetry", (int)structure.symmetry, "rows",
-        rows);
+        "{s:i, s:i, s:s, s:f, s:s, s:i, s:i, s:o, s:o}", "faces",
+        (int)m->face_count, "patches", (int)m->patch_count, "method", m->method,
+        "scale", m->scale, "class", structure.name, "symmetry",
+        (int)structure.symmetry, "slices", (int)e->slices, "rows", rows,
+        "places", worst_places(s));
 }

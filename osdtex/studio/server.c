@@ -119,9 +119,12 @@ get_block(const otx_server *server, connection *c, const char *path)
         w = otx_wire_surface(s);
     else if (strcmp(path, "mapping") == 0)
         w = otx_wire_mapping(s);
+    else if (strcmp(path, "seams") == 0)
+        w = otx_wire_seams(s);
     else if (
-        index >= 0 && index < OTX_SNAPSHOT_EXEMPLARS_MAX && s->exemplars[index])
-        w = otx_wire_texture(s->exemplars[index], TEXTURE_MOST);
+        index >= 0 && index < OTX_SNAPSHOT_EXEMPLARS_MAX &&
+        s->outcome->exemplars[index])
+        w = otx_wire_texture(s->outcome->exemplars[index], TEXTURE_MOST);
     otx_snapshot_release(s);
     return send_bytes(c, w.bytes, w.count, "application/octet-stream");
 }
@@ -141,7 +144,7 @@ get(const otx_server *server, connection *c, const char *path)
     if (strcmp(path, "state") == 0)
         return get_state(server, c);
     if (strcmp(path, "surface") == 0 || strcmp(path, "mapping") == 0 ||
-        strcmp(path, "texture") == 0)
+        strcmp(path, "seams") == 0 || strcmp(path, "texture") == 0)
         return get_block(server, c, path);
     return say(c, MHD_HTTP_NOT_FOUND, "there is no such page");
 }

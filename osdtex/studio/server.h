@@ -2,7 +2,7 @@
  *
  * GET  /TOKEN/               the page; /TOKEN/main.js and so on, its files
  *      /TOKEN/state?after=N  all that a page is told, once its serial exceeds N
- *      /TOKEN/surface, mapping, texture?index=K   blocks of wire.h
+ *      /TOKEN/surface, mapping, seams, texture?index=K   blocks of wire.h
  * POST /TOKEN/recipe?revision=N   a recipe; undo, redo, cancel, export
  *
  * What is not ours (door.h) is answered 403 and a sentence, what cannot be

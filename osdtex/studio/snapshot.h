@@ -15,22 +15,35 @@ enum
     OTX_SNAPSHOT_EXEMPLARS_MAX = OSDTEX_EXEMPLARS_MAX
 };
 
-typedef struct otx_snapshot
+/* What a recipe has made; of several snapshots, where it comes again. */
+typedef struct otx_outcome
 {
     atomic_int holders;
-    int64_t serial;
     int64_t surface_serial; /* another number, other points and faces */
-    int64_t revision;       /* of the recipe that it is of */
     osdtex_mapping *mapping;
     osdtex_field *field; /* NULL none */
     const osdtex_exemplar *exemplars[OTX_SNAPSHOT_EXEMPLARS_MAX];
     int exemplar; /* which of those to choose among the first is */
-    double seconds;
-} otx_snapshot;
+} otx_outcome;
 
 /* Takes the mapping and the field; NULL when memory is out, and then they stay
  * the caller's. One holder. */
-otx_snapshot *otx_snapshot_make(osdtex_mapping *mapping, osdtex_field *field);
+otx_outcome *otx_outcome_make(osdtex_mapping *mapping, osdtex_field *field);
+otx_outcome *otx_outcome_hold(otx_outcome *outcome);
+void otx_outcome_release(otx_outcome *outcome);
+
+typedef struct otx_snapshot
+{
+    atomic_int holders;
+    int64_t serial;
+    int64_t revision; /* of the recipe that it is of */
+    double seconds;
+    bool is_edit; /* it was made from another mapping */
+    otx_outcome *outcome;
+} otx_snapshot;
+
+/* Holds the outcome; NULL when memory is out. One holder. */
+otx_snapshot *otx_snapshot_make(otx_outcome *outcome);
 /* NULL for NULL. */
 otx_snapshot *otx_snapshot_hold(otx_snapshot *snapshot);
 void otx_snapshot_release(otx_snapshot *snapshot);

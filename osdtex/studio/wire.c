@@ -1,6 +1,8 @@
 /* wire.c -- arrays as the page reads them, in one block of bytes. */
 #include "studio/wire.h"
 
+#include "studio/joins.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -49,11 +51,11 @@ otx_wire
 otx_wire_surface(const otx_snapshot *s)
 {
     const osdtex_surface_info *i =
-        osdtex_surface_describe(osdtex_mapping_surface(s->mapping));
+        osdtex_surface_describe(osdtex_mapping_surface(s->outcome->mapping));
     const size_t verts = (size_t)i->vert_count, faces = (size_t)i->face_count,
                  corners = (size_t)i->corner_count;
     const int32_t head[OTX_WIRE_HEAD] = {
-        OTX_WIRE_MAGIC,  (int32_t)s->surface_serial,
+        OTX_WIRE_MAGIC,  (int32_t)s->outcome->surface_serial,
         i->vert_count,   i->face_count,
         i->corner_count, i->level};
     otx_wire w = begin(
@@ -132,9 +134,10 @@ static void
 put_stretch(const otx_snapshot *s, float *out)
 {
     const osdtex_surface_info *surface =
-        osdtex_surface_describe(osdtex_mapping_surface(s->mapping));
-    const osdtex_mapping_info *m = osdtex_mapping_describe(s->mapping);
-    const osdtex_exemplar_info *e = osdtex_exemplar_describe(s->exemplars[0]);
+        osdtex_surface_describe(osdtex_mapping_surface(s->outcome->mapping));
+    const osdtex_mapping_info *m = osdtex_mapping_describe(s->outcome->mapping);
+    const osdtex_exemplar_info *e =
+        osdtex_exemplar_describe(s->outcome->exemplars[0]);
     const double unit[2] = {m->scale, m->scale * e->height / e->width};
 
     for (osdtex_index f = 0; f < m->face_count; ++f)
@@ -150,16 +153,21 @@ put_stretch(const otx_snapshot *s, float *out)
 otx_wire
 otx_wire_mapping(const otx_snapshot *s)
 {
-    const osdtex_mapping_info *m = osdtex_mapping_describe(s->mapping);
+    const osdtex_mapping_info *m = osdtex_mapping_describe(s->outcome->mapping);
     const osdtex_field_info *d =
-        s->field ? osdtex_field_describe(s->field) : NULL;
+        s->outcome->field ? osdtex_field_describe(s->outcome->field) : NULL;
     const size_t faces = (size_t)m->face_count,
                  corners = (size_t)m->corner_count,
                  verts = d ? (size_t)d->vert_count : 0;
-    const int32_t head[OTX_WIRE_HEAD] = {
-        OTX_WIRE_MAGIC,    (int32_t)s->serial,  (int32_t)s->surface_serial,
-        m->face_count,     m->corner_count,     m->patch_count,
-        m->exemplar_count, d ? d->symmetry : 0, (int32_t)verts};
+    const int32_t head[OTX_WIRE_HEAD] = {OTX_WIRE_MAGIC,
+                                         (int32_t)s->serial,
+                                         (int32_t)s->outcome->surface_serial,
+                                         m->face_count,
+                                         m->corner_count,
+                                         m->patch_count,
+                                         m->exemplar_count,
+                                         d ? d->symmetry : 0,
+                                         (int32_t)verts};
     otx_wire w =
         begin(head, 4 * (2 * corners + 5 * faces + verts) + padded(faces));
     uint8_t *exemplars;
@@ -175,6 +183,21 @@ otx_wire_mapping(const otx_snapshot *s)
     for (size_t f = 0; m->patch_exemplar && f < faces; ++f)
         if (m->face_patch[f] >= 0)
             exemplars[f] = m->patch_exemplar[m->face_patch[f]];
+    return w;
+}
+
+otx_wire
+otx_wire_seams(const otx_snapshot *s)
+{
+    const otx_joins joins = otx_joins_find(s);
+    const size_t bytes = (size_t)joins.count * sizeof *joins.items;
+    const int32_t head[OTX_WIRE_HEAD] = {
+        OTX_WIRE_MAGIC, (int32_t)s->serial, joins.count};
+    otx_wire w = begin(head, bytes);
+
+    if (w.bytes)
+        add(&w, joins.items, bytes);
+    free(joins.items);
     return w;
 }
 

@@ -33,6 +33,9 @@ otx_wire otx_wire_surface(const otx_snapshot *snapshot);
  * f32, scales at vertices [v] f32, exemplar of each face [f] u8. */
 otx_wire otx_wire_mapping(const otx_snapshot *snapshot);
 
+/* magic, serial, seams; then [n * 2]: corner as i32, difference as f32. */
+otx_wire otx_wire_seams(const otx_snapshot *snapshot);
+
 /* magic, width, height, wraps along x, along y; then [w * h * 4] u8, sRGB, top
  * row last. Pictures of more than `most` texels a side are halved until they
  * fit. */

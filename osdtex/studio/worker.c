@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 static double
 now(void)
@@ -103,48 +104,83 @@ solve_field(
     return osdtex_field_create(w->context, w->surface, &options, out);
 }
 
+/* The options of a recipe, its exemplar and surface. */
 static osdtex_status
-map_recipe(otx_studio_worker *w, const json_t *recipe, otx_snapshot **out)
+prepare(otx_studio_worker *w, const json_t *recipe, osdtex_map_options *map)
 {
     const int index = otx_recipe_exemplar(recipe);
-    osdtex_map_options map = w->desk->options->map;
-    osdtex_mapping *mapping = NULL;
-    osdtex_field *field = NULL;
     osdtex_status status = read_exemplar(w, index);
 
-    *out = NULL;
-    otx_recipe_apply(recipe, &map);
-    map.constraints = w->desk->options->files->constraints;
+    *map = w->desk->options->map;
+    otx_recipe_apply(recipe, map);
+    map->constraints = w->desk->options->files->constraints;
     if (status == OSDTEX_OK)
-        status = refine(w, index, &map);
-    map.surface = w->surface;
-    map.scale = w->scale;
-    if (status == OSDTEX_OK)
-        status = osdtex_map(
-            w->context, w->desk->options->cage, w->exemplars[index], &map,
-            &mapping);
-    if (status == OSDTEX_OK)
-        status = solve_field(w, &map, &field);
-    if (status == OSDTEX_OK && !(*out = otx_snapshot_make(mapping, field)))
-        status = OSDTEX_ERROR_MEMORY;
-    if (status != OSDTEX_OK)
+        status = refine(w, index, map);
+    map->surface = w->surface;
+    map->scale = w->scale;
+    return status;
+}
+
+/* What the page is shown of a mapping. */
+static osdtex_status
+wrap_up(
+    otx_studio_worker *w, const osdtex_map_options *map,
+    osdtex_mapping *mapping, otx_outcome **out)
+{
+    osdtex_field *field = NULL;
+    const osdtex_status status = solve_field(w, map, &field);
+    otx_outcome *o =
+        status == OSDTEX_OK ? otx_outcome_make(mapping, field) : NULL;
+
+    *out = o;
+    if (!o)
     {
         osdtex_field_destroy(field);
-        osdtex_mapping_destroy(mapping);
-        return status;
+        return status == OSDTEX_OK ? OSDTEX_ERROR_MEMORY : status;
     }
-    (*out)->exemplar = index;
-    (*out)->exemplars[0] = w->exemplars[index];
-    for (int k = 0; k < map.also_count; ++k)
-        (*out)->exemplars[k + 1] = map.also[k].exemplar;
+    o->surface_serial = w->surface_serial;
+    o->exemplar = w->surface_exemplar;
+    o->exemplars[0] = w->exemplars[w->surface_exemplar];
+    for (int k = 0; k < map->also_count; ++k)
+        o->exemplars[k + 1] = map->also[k].exemplar;
     return OSDTEX_OK;
+}
+
+/* A new outcome, or one from the shelf; held for the caller. */
+static osdtex_status
+map_recipe(
+    otx_studio_worker *w, const json_t *recipe, otx_outcome **out,
+    bool *is_edit)
+{
+    osdtex_map_options map;
+    osdtex_mapping *mapping = NULL;
+    osdtex_status status;
+
+    *out = otx_shelf_find(&w->shelf, recipe);
+    *is_edit = true;
+    if (*out)
+    {
+        otx_outcome_hold(*out);
+        return OSDTEX_OK;
+    }
+    status = prepare(w, recipe, &map);
+    *is_edit = false;
+    if (status == OSDTEX_OK)
+        status = osdtex_map(
+            w->context, w->desk->options->cage,
+            w->exemplars[w->surface_exemplar], &map, &mapping);
+    if (status == OSDTEX_OK)
+        status = wrap_up(w, &map, mapping, out);
+    if (status == OSDTEX_OK)
+        otx_shelf_put(&w->shelf, recipe, *out);
+    else
+        osdtex_mapping_destroy(mapping);
+    return status;
 }
 
 /* Lays what came of it on the desk. */
 static void
-publish(
-    otx_studio_worker *w, otx_snapshot *made, osdtex_status status,
-    double seconds)
+publish(otx_studio_worker *w, otx_snapshot *made, osdtex_status status)
 {
     otx_desk *desk = w->desk;
 
@@ -159,9 +195,7 @@ publish(
     {
         otx_snapshot_release(desk->snapshot);
         made->serial = desk->serial;
-        made->surface_serial = w->surface_serial;
         made->revision = w->taken;
-        made->seconds = seconds;
         desk->snapshot = made;
     }
     otx_desk_touch(desk);
@@ -173,10 +207,20 @@ static void
 map_newest(otx_studio_worker *w, json_t *recipe)
 {
     const double begun = now();
-    otx_snapshot *made;
-    const osdtex_status status = map_recipe(w, recipe, &made);
+    otx_outcome *outcome = NULL;
+    otx_snapshot *made = NULL;
+    bool is_edit;
+    osdtex_status status = map_recipe(w, recipe, &outcome, &is_edit);
 
-    publish(w, made, status, now() - begun);
+    if (status == OSDTEX_OK && !(made = otx_snapshot_make(outcome)))
+        status = OSDTEX_ERROR_MEMORY;
+    otx_outcome_release(outcome);
+    if (made)
+    {
+        made->seconds = now() - begun;
+        made->is_edit = is_edit;
+    }
+    publish(w, made, status);
 }
 
 /* Measures what is shown; a newer recipe cancels that, too. */
@@ -227,9 +271,10 @@ write_model(otx_studio_worker *w, const otx_snapshot *shown)
     status = osdtex_outputs_mark(w->context, NULL, files->constraints);
     if (status == OSDTEX_OK)
         status = osdtex_mapping_write(
-            w->context, shown->mapping, files->model, NULL);
+            w->context, shown->outcome->mapping, files->model, NULL);
     if (status == OSDTEX_OK)
-        status = osdtex_mapping_save(w->context, shown->mapping, files->saved);
+        status = osdtex_mapping_save(
+            w->context, shown->outcome->mapping, files->saved);
     if (status == OSDTEX_OK)
         return osdtex_outputs_commit(w->context);
     osdtex_outputs_drop(w->context);
@@ -360,6 +405,7 @@ otx_worker_join(otx_studio_worker *w)
 {
     if (w->is_started)
         pthread_join(w->thread, NULL);
+    otx_shelf_free(&w->shelf);
     osdtex_surface_destroy(w->surface);
     for (int i = 0; i < OTX_STUDIO_EXEMPLARS_MAX; ++i)
         osdtex_exemplar_destroy(w->exemplars[i]);

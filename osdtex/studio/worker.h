@@ -1,11 +1,14 @@
 /* worker.h -- the thread that maps whatever recipe is newest.
  *
- * A newer recipe cancels the one that is at work. Figures come behind the
- * picture, so that nobody waits for them. */
+ * A newer recipe cancels the one that is at work. One that was mapped lately is
+ * taken from the shelf, and of one that is an edit of such a one only the edit
+ * is made: osdtex_map() with all of it makes the same bytes. Figures come
+ * behind the picture, so that nobody waits for them. */
 #ifndef OTX_STUDIO_WORKER_H
 #define OTX_STUDIO_WORKER_H
 
 #include "studio/desk.h"
+#include "studio/shelf.h"
 
 typedef struct otx_studio_worker
 {
@@ -19,6 +22,7 @@ typedef struct otx_studio_worker
     int64_t taken; /* revision at work */
     pthread_t thread;
     bool is_started;
+    otx_shelf shelf;
     osdtex_exemplar *exemplars[OTX_STUDIO_EXEMPLARS_MAX]; /* as read; NULL */
 } otx_studio_worker;
 

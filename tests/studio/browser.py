@@ -53,7 +53,7 @@ class Page:
             if time.monotonic() > end:
                 raise AssertionError(
                     f"not after {seconds} s: {condition}; "
-                    + str(self.run("document.querySelector('footer').innerText")))
+                    + str(self.run("document.body.innerText")))
             time.sleep(.05)
 
     def mouse(self, kind, x, y, button="left", **more):
@@ -99,8 +99,9 @@ class Page:
             file.write(base64.b64decode(data))
 
     def reload(self):
+        self.run("window.stale = true")
         self.call("Page.reload")
-        time.sleep(.3)
+        self.wait("!window.stale && document.readyState === 'complete'")
 
     def close(self):
         self.call("Page.close")
@@ -177,4 +178,6 @@ class Browser:
         page.call("Runtime.enable")
         page.call("Log.enable")
         page.size(*size)
+        page.wait("location.protocol === 'http:' &&"
+                  " document.readyState === 'complete'")
         return page

@@ -1,6 +1,6 @@
 // main.js -- the page: what the program tells, and what the person does.
 import { View, VIEWS } from './view.js';
-import { readSurface, readMapping, readTexture } from './wire.js';
+import { readSurface, readMapping, readSeams, readTexture } from './wire.js';
 import { TOOLS, combed, brushed, erased, gestures } from './tools.js';
 
 const $ = id => document.getElementById(id);
@@ -11,6 +11,7 @@ const view = new View($('canvas'), stage);
 const page = {
   tool: 'look', radius: 0.07, reach: 2.5, size: 1.5, slice: 1, mask: 2,
   at: [0.5, 0.5], angle: 0, combAngle: 0, stroke: null, asked: 0, took: null,
+  places: [], placesOf: null, place: -1,
 };
 let state = null, texture = null, loads = Promise.resolve(), seenError = '';
 
@@ -76,6 +77,7 @@ async function load() {
     drawPicture();
   }
   view.setMapping(mapping);
+  await loadSeams();
   if (page.asked) {
     page.took = (performance.now() - page.asked) / 1000;
     page.asked = 0;
@@ -123,8 +125,13 @@ function told() {
     : !s.busy && page.took ? `${page.took.toFixed(1)} s from gesture to picture` : 'All is saved';
   $('told').textContent = s.told;
   $('command').textContent = s.command;
+  $('stage').dataset.busy = s.busy;
+  // Tools for which there is nothing to choose are not in the way.
+  tool('material').hidden = !(shown?.figures?.slices > 0);
+  tool('mask').hidden = !(shown?.exemplars > 1);
   fillChoices(s);
   tellNumbers(shown);
+  tellPlaces(shown);
   tellGestures();
   drawMarks();
 }
@@ -169,6 +176,46 @@ function tellGestures() {
     item.append(go, drop);
     return item;
   }));
+}
+
+// Only where they have changed, so that the list is not scrolled away.
+function tellPlaces(shown) {
+  const places = shown?.figures?.places ?? [];
+  if (page.placesOf === shown?.serial && page.places.length === places.length) return;
+  page.places = places;
+  page.placesOf = shown?.serial;
+  $('places').replaceChildren(...places.map((p, i) => {
+    const item = document.createElement('li'), go = document.createElement('button');
+    go.textContent = `${i + 1}. ${short(p.length)} units, ${short(100 * p.difference)} %`;
+    go.title = 'Length of the seams there, and how much their sides differ (100 %: black beside white)';
+    go.onclick = () => visitPlace(i);
+    item.append(go);
+    return item;
+  }));
+  markPlace();
+}
+
+function markPlace() {
+  [...$('places').children].forEach((item, i) => item.setAttribute('aria-current', i === page.place));
+  $('place').textContent = page.places.length
+    ? (page.place < 0 ? `${page.places.length} places` : `${page.place + 1} of ${page.places.length}`) : 'None';
+}
+
+function visitPlace(i) {
+  const p = page.places[i];
+  if (!p) return;
+  page.place = i;
+  view.visit(p.point.map((x, k) => x - view.surface.origin[k]), p.normal, view.radius * 0.9);
+  markPlace();
+  $('places').children[i].scrollIntoView({ block: 'nearest' });
+}
+
+const stepPlace = by => page.places.length &&
+  visitPlace((page.place + by + page.places.length) % page.places.length);
+
+// What only the view of seams needs.
+async function loadSeams() {
+  if (view.show === 'seams' && view.mapping && !view.seams) view.setSeams(await readSeams());
 }
 
 function visitGesture(c) {
@@ -313,11 +360,22 @@ const toolButtons = TOOLS.map(t => {
   b.title = t.hint;
   return b;
 });
+const tool = id => toolButtons[TOOLS.findIndex(t => t.id === id)];
 const viewButtons = VIEWS.map((name, i) =>
   button($('views'), name[0].toUpperCase() + name.slice(1), String(i + 1), () => chooseView(name)));
 
+const LEGENDS = {
+  texture: '', patches: 'Each piece of the exemplar in a colour of its own.',
+  stretch: 'Red: larger than asked for. Blue: smaller. White: as it should be.',
+  seams: 'The redder, the more the two sides differ.',
+  field: 'Which way the texture is to run.',
+  scale: 'Red: larger asked for. Blue: smaller.',
+};
+
 function chooseView(name) {
+  $('legend').textContent = LEGENDS[name];
   view.choose(name);
+  loads = loads.then(loadSeams).catch(e => complain(e.message));
   viewButtons.forEach((b, i) => b.setAttribute('aria-pressed', VIEWS[i] === name));
 }
 
@@ -359,7 +417,7 @@ function showOptions() {
   if (t === 'material')
     list.push(slider('Slice', 0, 1, page.slice, short, v => { page.slice = Number(v.toFixed(3)); }));
   if (t === 'mask')
-    list.push(slider('Exemplar', 1, 4, page.mask, v => String(Math.round(v)), v => { page.mask = Math.round(v); }));
+    list.push(slider('Exemplar', 1, state?.snapshot?.exemplars ?? 2, page.mask, v => String(Math.round(v)), v => { page.mask = Math.round(v); }));
   if (t === 'first')
     list.push(slider('Turned by', -180, 180, page.angle, v => `${Math.round(v)}°`, v => { page.angle = Math.round(v); drawPicture(); }));
   $('options').replaceChildren(...list);
@@ -402,6 +460,8 @@ $('width').onchange = () => change(r => { r.scale = Math.max(0, Number($('width'
 // ---- the bar, and keys ----
 
 const again = () => change(r => { r.seed += 1; });
+$('before').onclick = () => stepPlace(page.place < 0 ? 0 : -1);
+$('after').onclick = () => stepPlace(1);
 $('undo').onclick = () => step('undo');
 $('redo').onclick = () => step('redo');
 $('again').onclick = again;
@@ -418,6 +478,7 @@ const KEYS = [
   ['Enter', 'The tool at the middle of the picture'],
   ['Home', 'All of the model'],
   ['Ctrl Z, Ctrl Shift Z', 'Undo, redo'],
+  ['N, Shift N', 'To where seams show most, one after the other'],
   ['R', 'Another seed'],
   ['Esc', 'Stop the work'],
   ['Shift drag, two fingers', 'Turn the model, whatever the tool'],
@@ -431,8 +492,9 @@ const ACTIONS = {
   ArrowUp: () => view.turn(0, TURN), ArrowDown: () => view.turn(0, -TURN),
   '+': () => view.zoom(0.85), '=': () => view.zoom(0.85), '-': () => view.zoom(1 / 0.85),
   Home: () => view.home(), Escape: () => state?.busy && post('cancel'), r: again,
+  n: e => stepPlace(e.shiftKey ? (page.place < 0 ? 0 : -1) : 1),
   '[': () => { page.radius /= 1.15; showOptions(); }, ']': () => { page.radius *= 1.15; showOptions(); },
-  '?': () => $('keys').showModal(), Enter: applyAtMiddle,
+  '?': () => $('keys').showModal(), Enter: () => applyAtMiddle(),
 };
 
 addEventListener('keydown', e => {
@@ -445,11 +507,11 @@ addEventListener('keydown', e => {
     return;
   }
   if (e.ctrlKey || e.metaKey || e.altKey) return;
-  const tool = TOOLS.find(t => t.key.toLowerCase() === key);
+  const chosen = TOOLS.find(t => t.key.toLowerCase() === key);
   const shown = VIEWS[Number(key) - 1];
-  if (tool) chooseTool(tool.id);
+  if (chosen) { if (!tool(chosen.id).hidden) chooseTool(chosen.id); }
   else if (shown) chooseView(shown);
-  else if (ACTIONS[key]) { e.preventDefault(); ACTIONS[key](); }
+  else if (ACTIONS[key]) { e.preventDefault(); ACTIONS[key](e); }
 });
 
 chooseView('texture');

@@ -161,6 +161,7 @@ export class View {
         which[c] = m.which[f];
       }
     this.mapping = m;
+    this.dropSeams();
     this.octaves = octaves;
     g.setAttribute('uv', new T.BufferAttribute(m.uvs, 2));
     g.setAttribute('tint', new T.BufferAttribute(tint, 3, true));
@@ -182,6 +183,7 @@ export class View {
       values.needsUpdate = true;
     }
     if (this.field) this.field.visible = show === 'field';
+    if (this.seams) this.seams.visible = show === 'seams';
     this.draw();
   }
 
@@ -210,6 +212,42 @@ export class View {
     g.setAttribute('position', new T.BufferAttribute(new Float32Array(ends), 3));
     this.field = new T.LineSegments(g, new T.LineBasicMaterial({ color: 0xffd27a }));
     this.scene.add(this.field);
+  }
+
+  // The edges where patches meet, the redder the more they differ.
+  setSeams({ serial, count, words, floats }) {
+    this.dropSeams();
+    if (serial !== this.mapping.serial) return;
+    const { first, corner, points, normals, faces } = this.surface;
+    const ends = new Float32Array(6 * count), colors = new Float32Array(6 * count);
+    const lift = this.radius * 0.0015;
+    let f = 0;
+    for (let i = 0; i < count; ++i) {
+      const c = words[2 * i], bad = Math.min(1, floats[2 * i + 1] * 5);
+      while (f < faces && first[f + 1] <= c) ++f;
+      const d = c + 1 < first[f + 1] ? c + 1 : first[f];
+      [c, d].forEach((x, e) => {
+        for (let k = 0; k < 3; ++k) {
+          const at = 3 * corner[x] + k;
+          ends[6 * i + 3 * e + k] = points[at] + lift * normals[at];
+        }
+        colors.set([0.25 + 0.75 * bad, 0.3 * (1 - bad) + 0.05, 0.35 * (1 - bad)], 6 * i + 3 * e);
+      });
+    }
+    const g = new T.BufferGeometry();
+    g.setAttribute('position', new T.BufferAttribute(ends, 3));
+    g.setAttribute('color', new T.BufferAttribute(colors, 3));
+    this.seams = new T.LineSegments(g, new T.LineBasicMaterial({ vertexColors: true }));
+    this.seams.visible = this.show === 'seams';
+    this.scene.add(this.seams);
+    this.draw();
+  }
+
+  dropSeams() {
+    if (!this.seams) return;
+    this.scene.remove(this.seams);
+    this.seams.geometry.dispose();
+    this.seams = null;
   }
 
   // ---- the camera ----

@@ -39,6 +39,12 @@ export async function readMapping() {
   };
 }
 
+export async function readSeams() {
+  const [h, next] = await block('seams');
+  const words = next(Int32Array, 2 * h[2]);
+  return { serial: h[1], count: h[2], words, floats: new Float32Array(words.buffer, words.byteOffset, words.length) };
+}
+
 export async function readTexture(index) {
   const [h, next] = await block(`texture?index=${index}`);
   const [, width, height, wrapX, wrapY] = h;
