@@ -113,9 +113,19 @@ typedef struct osdtex_map_options
      * where it helps. Bakes and pictures show it, UVs cannot. */
     double heal;
     /* Where the slices of a stack go (stack.h), unless constraints say it by
-     * their material: "x", "y", "z" from the lowest point of the surface to the
-     * highest, or "-x", "-y", "-z"; NULL: "y". Of other exemplars it says
-     * nothing. */
+     * their material. 0 is its first slice and 1 its last:
+     *
+     *   "x" "y" "z"  from the lowest point of the surface to the highest
+     *   "curvature"  from the deepest hollow to the sharpest ridge
+     *   "ridges"     0 but on ridges; "hollows": 0 but in hollows
+     *   "occlusion"  from where the sky is seen to where it is not
+     *   "boundary"   from boundaries and holes to what is farthest from them;
+     *                "boundary:L": to L scene units along the surface
+     *   "creases"    likewise from the creases of the cage
+     *   "red" "green" "blue"  what the colours of the cage's vertices say
+     *
+     * and with a minus before it the other way round. NULL: "y". Of other
+     * exemplars it says nothing. */
     const char *along;
 } osdtex_map_options;
 

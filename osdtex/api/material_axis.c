@@ -1,10 +1,10 @@
-/* material_axis.c -- by constraints, or by height. */
+/* material_axis.c -- by constraints, or by what the surface is like. */
 #include "api/material_axis.h"
 
+#include "api/axis_values.h"
 #include "method/density.h"
 
 #include <math.h>
-#include <string.h>
 
 static const char STAGE[] = "map";
 
@@ -26,45 +26,6 @@ has_stack(const osdtex_mapping *handle)
     return false;
 }
 
-/* Which coordinate, and which way. */
-static otx_status
-parse(otx_run *run, const char *axis, int *coordinate, double *sign)
-{
-    const char *letter = axis && *axis == '-' ? axis + 1 : axis ? axis : "y";
-
-    *sign = axis && *axis == '-' ? -1.0 : 1.0;
-    *coordinate = letter[0] - 'x';
-    if (*coordinate >= 0 && *coordinate <= 2 && letter[1] == '\0')
-        return OSDTEX_OK;
-    return otx_fail(
-        run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
-        "{along} is x, y or z, or one of them with a minus, not '%.40s'", axis);
-}
-
-static otx_status
-climb(otx_run *run, const otx_surface *surface, const char *axis, float *along)
-{
-    const int32_t count = otx_surface_leaf(surface)->vert_count;
-    double low = (double)INFINITY, high = -(double)INFINITY, sign;
-    int coordinate;
-
-    OTX_TRY(parse(run, axis, &coordinate, &sign));
-    for (int32_t v = 0; v < count; ++v)
-    {
-        const double at = sign * (double)surface->points[3 * v + coordinate];
-
-        low = fmin(low, at);
-        high = fmax(high, at);
-    }
-    for (int32_t v = 0; v < count; ++v)
-    {
-        const double at = sign * (double)surface->points[3 * v + coordinate];
-
-        along[v] = high > low ? (float)((at - low) / (high - low)) : 0.0f;
-    }
-    return OSDTEX_OK;
-}
-
 static otx_status
 follow(
     otx_run *run, const otx_surface *surface,
@@ -83,16 +44,15 @@ follow(
 }
 
 otx_status
-otx_material_axis_take(otx_run *run, const char *axis, osdtex_mapping *handle)
+otx_material_axis_take(otx_run *run, const char *text, osdtex_mapping *handle)
 {
     const otx_constraint_set *constraints = handle->request.constraints;
     const otx_surface *surface = &handle->surface->surface;
     const bool asked = asks_for_material(constraints);
-    int coordinate;
-    double sign;
+    otx_axis how;
     float *along;
 
-    OTX_TRY(parse(run, axis, &coordinate, &sign));
+    OTX_TRY(otx_axis_parse(run, text, &how));
     if (!has_stack(handle))
     {
         if (asked && handle->source_count == 1)
@@ -106,7 +66,8 @@ otx_material_axis_take(otx_run *run, const char *axis, osdtex_mapping *handle)
     OTX_TRY(otx_run_ok(run));
     OTX_TRY(
         asked ? follow(run, surface, constraints, along)
-              : climb(run, surface, axis, along));
+              : otx_axis_values(
+                    run, surface, &how, handle->request.scale, along));
     handle->mapping.along = along;
     return OSDTEX_OK;
 }

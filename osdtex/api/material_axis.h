@@ -5,14 +5,15 @@
 #include "api/handle.h"
 
 /* Sets mapping.along of a handle that is mapped, where one of its exemplars is
- * a stack: by the material of its constraints, else from end to end of the
- * surface along an axis.
+ * a stack: by the material of its constraints, else by what the surface is like
+ * at a vertex.
  *
- *   axis  as osdtex_map_options.along
+ *   text  as osdtex_map_options.along
  *
  * Says where a material is asked for that nothing can show. ARGUMENT for an
- * axis that is none, CANCELLED, MEMORY. */
+ * axis that is none and for creases or boundaries where there are none,
+ * CANCELLED, MEMORY. */
 otx_status
-otx_material_axis_take(otx_run *run, const char *axis, osdtex_mapping *handle);
+otx_material_axis_take(otx_run *run, const char *text, osdtex_mapping *handle);
 
 #endif

@@ -91,9 +91,11 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "smooth)"},
     [OTX_FLAG_ALONG] =
         {"along", 0, OTX_FLAG_GROUP_MAIN, "AXIS",
-         "of a stack (osdtex stack): its slices go from the lowest to the "
-         "highest point along x, y, z, or the other way along -x, -y, -z, "
-         "unless constraints name a material (default y)"},
+         "of a stack (osdtex stack): what its slices follow, unless "
+         "constraints name a material: x, y, z, from the lowest to the highest "
+         "point (default y); curvature, ridges, hollows; occlusion; "
+         "boundary[:LENGTH], creases[:LENGTH], the way from them; red, green, "
+         "blue of the vertices' colours; with a minus, as -y, the other way"},
     [OTX_FLAG_SYMMETRY] =
         {"symmetry", 0, OTX_FLAG_GROUP_MAIN, "1|2|4",
          "a field of arrows, of lines or of crosses (default: what the file "

@@ -218,3 +218,20 @@ otx_light_at(
     return KEY * key_light(light, from, face, normal, a) +
            SKY * sky_light(light, from, face, normal, b);
 }
+
+double
+otx_light_open(
+    const otx_tracer *tracer, otx_vec3 at, otx_vec3 normal, int32_t count)
+{
+    const otx_vec3 from = otx_vec3_add(at, otx_vec3_scale(LIFT, normal));
+    int32_t open = 0;
+
+    for (int32_t i = 0; i < count; ++i)
+    {
+        const otx_vec2 square = sample_square(i, count, 0, 3);
+        const otx_vec3 to = cosine_direction(normal, square);
+
+        open += !otx_tracer_occluded(tracer, from, to, REACH);
+    }
+    return (double)open / count;
+}

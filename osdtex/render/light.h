@@ -56,4 +56,13 @@ double otx_light_at(
     const otx_light *light, otx_vec3 at, otx_vec3 face, otx_vec3 normal,
     int32_t number, int32_t count, uint64_t key);
 
+/* Of an even sky's light on a place, what the model itself lets through: from
+ * 0, none, to 1.
+ *
+ *   at      on the model, in the tracer's units
+ *   normal  unit
+ *   count   rays */
+double otx_light_open(
+    const otx_tracer *tracer, otx_vec3 at, otx_vec3 normal, int32_t count);
+
 #endif

@@ -105,12 +105,12 @@ class Stack(ProgramTest):
         self.assert_error(
             self.run_program(
                 "bake", cage, stack, "-o", self.folder / "f.obj", *words,
-                "--along", "up"), 1, "--along is x, y or z")
+                "--along", "up"), 1, "--along is x, y, z, curvature")
 
-    def along(self, *more):
-        """The coordinate of the vertices of a torus that is not refined, and
-        its faces."""
-        cage, saved = CAGES / "torus.obj", self.folder / "t.osdtex"
+    def along(self, *more, cage=CAGES / "torus.obj"):
+        """The coordinate of the vertices of a cage, a torus, that is not
+        refined, and its faces."""
+        saved = self.folder / "t.osdtex"
         self.assert_exit(self.run_program(
             "bake", cage, self.folder / "a.exr", "-o", self.folder / "t.obj",
             "--scale", 4, "--level", 0, "--resolution", 64, "--save", saved,
@@ -123,6 +123,47 @@ class Stack(ProgramTest):
             [int(corner.split("/")[0]) - 1 for corner in line.split()[1:]]
             for line in cage.read_text().splitlines() if line.startswith("f ")]
         return struct.unpack(f"<{len(values) // 4}f", values), faces
+
+    def test_the_surface_says_where_slices_go(self):
+        self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
+        found = {}
+        for axis in "curvature", "ridges", "occlusion", "-ridges":
+            values, _ = self.along("--along", axis)
+            found[axis] = values
+            self.assertTrue(all(0 <= v <= 1 for v in values), axis)
+            self.assertGreater(max(values) - min(values), 0.2, axis)
+        for ridge, other in zip(found["ridges"], found["-ridges"]):
+            self.assertAlmostEqual(ridge, 1 - other, delta=1e-6)
+        # The ridge of a ring is its outside, where the sky is seen.
+        outside = max(
+            range(len(values)), key=lambda v: found["ridges"][v])
+        self.assertLess(found["occlusion"][outside], 0.2)
+
+    def test_colours_of_vertices_say_where_slices_go(self):
+        self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
+        cage, greens = self.folder / "painted.obj", []
+        lines = (CAGES / "torus.obj").read_text().splitlines()
+        for i, line in enumerate(lines):
+            if line.startswith("v "):
+                greens.append(len(greens) % 5 / 4)
+                lines[i] = f"{line} 0.5 {greens[-1]} 0"
+        cage.write_text("\n".join(lines) + "\n")
+        values, _ = self.along("--along", "green", cage=cage)
+        for value, green in zip(values, greens):
+            self.assertAlmostEqual(value, green, delta=1e-6)
+
+    def test_what_a_cage_has_none_of(self):
+        self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
+        for axis, sentence in (
+                ("boundary", "has none of"), ("creases", "has none of"),
+                ("red", "colours of vertices"), ("x:1", "is x, y, z"),
+                ("boundary:-1", "is x, y, z"), ("boundary:", "is x, y, z")):
+            result = self.run_map(
+                CAGES / "torus.obj", self.folder / "a.exr", "--scale", 4,
+                "--level", 0, "--along", axis)
+            self.assertIn(sentence, result.stderr, axis)
+            self.assertNotEqual(result.returncode, 0, axis)
+            self.assertFalse((self.folder / "out.obj").exists())
 
     def test_constraints_say_where_slices_go(self):
         self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
