@@ -35,7 +35,8 @@ spheres_have_their_radius(void **state)
     double *out, radius;
 
     (void)state;
-    assert_int_equal(mesh_cage_from_file(run, "models/cages/sphere.obj", &cage), OSDTEX_OK);
+    assert_int_equal(
+        mesh_cage_from_file(run, "models/cages/sphere.obj", &cage), OSDTEX_OK);
     s = mesh_refine(run, &cage, 2);
     out = OTX_NEW(run->arena, double, otx_surface_leaf(&s)->vert_count);
     radius = sqrt(s.area / (4.0 * OTX_PI));
