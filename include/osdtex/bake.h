@@ -39,11 +39,12 @@ enum
     OSDTEX_BAKE_UV = 2,      /* UV in the exemplar */
     OSDTEX_BAKE_STRETCH = 4, /* L2 stretch, ratio of the axes; 1 is none */
     OSDTEX_BAKE_SEAM = 8,    /* 1 where patches meet */
-    OSDTEX_BAKE_SOURCE = 16  /* all that another picture of the exemplar's size
+    OSDTEX_BAKE_SOURCE = 16, /* all that another picture of the exemplar's size
                               * is baked by: R the exemplar, G and B its UV, A
                               * the footprint, the side of a square as large
                               * as the texel there, in widths of the exemplar;
                               * beyond the surface, too */
+    OSDTEX_BAKE_SLICE = 32   /* place along the axis of a stack, 0 to 1 */
 };
 
 /* Which axis points up in the scene. Nothing is turned. */

@@ -62,7 +62,7 @@ typedef struct osdtex_texture_info
 {
     const char *name;        /* "color"; "normal", "roughness", "height",
                               * "metalness", "occlusion"; "patch", "uv",
-                              * "stretch", "seam", "source" */
+                              * "stretch", "seam", "source", "slice" */
     const char *color_space; /* of its linear values; NULL: no colours */
     const char *summary;     /* one sentence: what its channels hold */
     int32_t channels;        /* 1; 3; or 4: the source, and colour with alpha,

@@ -26,7 +26,8 @@ otx_bake_handle_has(const osdtex_bake_options *options, otx_texel_kind kind)
         [OTX_TEXEL_UV] = OSDTEX_BAKE_UV,
         [OTX_TEXEL_STRETCH] = OSDTEX_BAKE_STRETCH,
         [OTX_TEXEL_SEAM] = OSDTEX_BAKE_SEAM,
-        [OTX_TEXEL_SOURCE] = OSDTEX_BAKE_SOURCE};
+        [OTX_TEXEL_SOURCE] = OSDTEX_BAKE_SOURCE,
+        [OTX_TEXEL_SLICE] = OSDTEX_BAKE_SLICE};
 
     return kind == OTX_TEXEL_COLOR || (options->extras & bits[kind]) != 0;
 }
@@ -37,7 +38,7 @@ otx_bake_handle_options(
 {
     const uint32_t known = OSDTEX_BAKE_PATCH | OSDTEX_BAKE_UV |
                            OSDTEX_BAKE_STRETCH | OSDTEX_BAKE_SEAM |
-                           OSDTEX_BAKE_SOURCE;
+                           OSDTEX_BAKE_SOURCE | OSDTEX_BAKE_SLICE;
 
     *out = osdtex_bake_options_default();
     OTX_TRY(otx_call_options(run, out, sizeof *out, theirs));

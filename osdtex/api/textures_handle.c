@@ -19,7 +19,8 @@ describe(const otx_bake *bake, const otx_exemplar *exemplar)
         "U and v in the exemplar, and 1 on the surface.",
         "L2 stretch, ratio of the axes, and 1 on the surface.",
         "1 where patches meet, nothing, and 1 on the surface.",
-        "Exemplar, U and V in it, and the footprint in widths of it."};
+        "Exemplar, U and V in it, and the footprint in widths of it.",
+        "Place along the axis of a stack, 0, and 1 on the surface."};
     const otx_texel_kind kind = bake->source.kind;
 
     return (osdtex_texture_info){

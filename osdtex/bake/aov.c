@@ -115,6 +115,13 @@ values_at(
     case OTX_TEXEL_SOURCE:
         source_at(source, walk, values);
         return;
+    case OTX_TEXEL_SLICE:
+        if (source->show.along)
+            values[0] = (float)otx_show_along(
+                &source->show,
+                &(otx_show_place){
+                    face, walk->facet.corners, walk->at, walk->dx, walk->dy});
+        return;
     default:
         return;
     }

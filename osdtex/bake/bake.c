@@ -345,7 +345,7 @@ const char *
 otx_bake_kind_name(otx_texel_kind kind)
 {
     static const char *const names[OTX_TEXEL_KIND_COUNT] = {
-        "color", "patch", "uv", "stretch", "seam", "source"};
+        "color", "patch", "uv", "stretch", "seam", "source", "slice"};
 
     return names[kind];
 }

@@ -99,7 +99,7 @@ otx_bake_block_of(const otx_bake_block *block, int32_t map)
     return result;
 }
 
-/* "color", "patch", "uv", "stretch", "seam", "source". */
+/* "color", "patch", "uv", "stretch", "seam", "source", "slice". */
 const char *otx_bake_kind_name(otx_texel_kind kind);
 
 #endif

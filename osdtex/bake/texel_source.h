@@ -17,6 +17,7 @@ typedef enum otx_texel_kind
     OTX_TEXEL_STRETCH, /* (L2 stretch, larger / smaller, on the surface) */
     OTX_TEXEL_SEAM,    /* (patches meet in or beside it, 0, on the surface) */
     OTX_TEXEL_SOURCE,  /* (exemplar, u, v, footprint): what is looked up */
+    OTX_TEXEL_SLICE,   /* (along the axis of a stack, 0, on the surface) */
     OTX_TEXEL_KIND_COUNT,
     /* No file of their own: what else is known of the materials, baked together
      * with the colour and like it. */

@@ -82,7 +82,7 @@ static bool
 parse_extras(const otx_flag_values *values, osdtex_bake_options *out)
 {
     static const char *const words[] = {
-        "patch", "uv", "stretch", "seam", "source"};
+        "patch", "uv", "stretch", "seam", "source", "slice"};
     const int count = sizeof words / sizeof *words;
     const char *text = values->text[OTX_FLAG_EXTRA];
 
@@ -98,8 +98,8 @@ parse_extras(const otx_flag_values *values, osdtex_bake_options *out)
         if (found < 0)
         {
             otx_session_refuse(
-                "--extra takes patch, uv, stretch, seam and source with commas "
-                "between, not '%s'",
+                "--extra takes patch, uv, stretch, seam, source and slice with "
+                "commas between, not '%s'",
                 text);
             return false;
         }

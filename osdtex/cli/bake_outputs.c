@@ -13,12 +13,12 @@
 enum
 {
     SUFFIX_BYTES = 64,
-    KIND_COUNT = 6
+    KIND_COUNT = 7
 };
 
 /* Those of the extras have the place of their bit. */
 static const char *const KINDS[KIND_COUNT] = {
-    "", "_patch", "_uv", "_stretch", "_seam", "_source"};
+    "", "_patch", "_uv", "_stretch", "_seam", "_source", "_slice"};
 
 /* What is asked for. */
 typedef struct request

@@ -209,7 +209,7 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "so that its structure goes on through them; auto: of 64, only where "
          "seams show and it helps (default 0: none)"},
     [OTX_FLAG_EXTRA] =
-        {"extra", 0, OTX_FLAG_GROUP_BAKE, "patch,uv,stretch,seam,source",
+        {"extra", 0, OTX_FLAG_GROUP_BAKE, "patch,uv,stretch,seam,source,slice",
          "also bake these, as 32-bit NAME_patch.<UDIM>.exr and so on"},
     [OTX_FLAG_PREVIEW_PNG] =
         {"preview-png", 0, OTX_FLAG_GROUP_BAKE, NULL,

@@ -10,7 +10,7 @@ static void
 a_handle_says_what_it_will_bake(void **state)
 {
     static const char *const names[] = {
-        "color", "patch", "uv", "stretch", "seam", "source"};
+        "color", "patch", "uv", "stretch", "seam", "source", "slice"};
     const osdtex_bake_options options = small_bake();
     const osdtex_textures_info *info;
     scene s;

@@ -12,7 +12,7 @@
 
 enum
 {
-    TEXTURES = 6,
+    TEXTURES = 7,
     LEVELS = 7, /* 96 48 24 12 6 3 1 */
     SIDE = 96   /* more than a block, and no whole number of them */
 };
@@ -26,7 +26,7 @@ typedef struct scene
 
 static const uint32_t ALL = OSDTEX_BAKE_PATCH | OSDTEX_BAKE_UV |
                             OSDTEX_BAKE_STRETCH | OSDTEX_BAKE_SEAM |
-                            OSDTEX_BAKE_SOURCE;
+                            OSDTEX_BAKE_SOURCE | OSDTEX_BAKE_SLICE;
 
 static inline osdtex_bake_options
 small_bake(void)

@@ -40,11 +40,12 @@ class Bakes(ProgramTest):
 
     def test_files(self):
         self.assert_bakes(
-            "--extra", "seam,source,patch,stretch,uv", "--preview-png",
+            "--extra", "seam,source,patch,slice,stretch,uv", "--preview-png",
             "--seam-blend", "4")
         textures = [
             f"out{k}.1001.exr" for k in
-            ("", "_patch", "_seam", "_source", "_stretch", "_uv")]
+            ("", "_patch", "_seam", "_slice", "_source", "_stretch",
+             "_uv")]
         self.assertEqual(
             self.names(),
             sorted(LOOK + textures + ["out.1001.png", "out_preview.mtl"]))

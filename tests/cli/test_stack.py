@@ -152,6 +152,17 @@ class Stack(ProgramTest):
         for value, green in zip(values, greens):
             self.assertAlmostEqual(value, green, delta=1e-6)
 
+    def test_the_slice_of_a_texel_is_baked(self):
+        """From left to right of a square it goes from 0 to 1."""
+        self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
+        self.assert_exit(self.run_program(
+            "bake", CAGES / "plane.obj", self.folder / "a.exr", "-o",
+            self.folder / "b.obj", "--scale", 1, "--level", 2, "--resolution",
+            64, "--along", "x", "--extra", "slice"), 0)
+        known = self.run_program("info", self.folder / "b_slice.1001.exr")
+        self.assertIn("64 x 64", known.stdout)
+        self.assertIn("3 channels, float", known.stdout)
+
     def test_what_a_cage_has_none_of(self):
         self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
         for axis, sentence in (

@@ -7,7 +7,7 @@
 
 static const char *const UVS[] = {"auto", "own", "atlas", NULL};
 static const char *const EXTRAS[] = {
-    "patch", "uv", "stretch", "seam", "source", NULL};
+    "patch", "uv", "stretch", "seam", "source", "slice", NULL};
 static const char *const AXES[] = {"y", "z", NULL};
 
 #define BAKE(field) offsetof(osdtex_bake_options, field)

@@ -150,12 +150,51 @@ footprints_are_those_of_texels(void **state)
     test_run_destroy(run);
 }
 
+/* The coordinate of a stack is linear between vertices, as UVs are. */
+static void
+slices_lie_as_vertices_say(void **state)
+{
+    static const otx_bake_options slice = {.kind = OTX_TEXEL_SLICE};
+    static const otx_bake_options uv = {.kind = OTX_TEXEL_UV};
+    otx_run *run = test_run_create();
+    const otx_surface *surface = flat_surface(run, N, 1);
+    const int32_t count = otx_surface_leaf(surface)->vert_count;
+    otx_mapping *mapping = flat_mapping(run, surface, N);
+    const otx_exemplar exemplar = waves(run, 64, 64, 0.5);
+    const otx_layout layout =
+        flat_layout(run, mapping, OTX_LAYOUT_ATLAS, SIDE, 8);
+    float *along = OTX_NEW(run->arena, float, count);
+    flat_levels slices, uvs;
+    int64_t seen = 0;
+
+    (void)state;
+    for (int32_t v = 0; v < count; ++v)
+        along[v] = surface->points[3 * v] / N;
+    mapping->along = along;
+    slices = flat_bake(run, mapping, &exemplar, &layout, &slice, 0);
+    uvs = flat_bake(run, mapping, &exemplar, &layout, &uv, 0);
+    for (int32_t i = 0; i < SIDE * SIDE; ++i)
+    {
+        const float *at = slices.levels[0].pixels + 3 * i;
+        const float *u = uvs.levels[0].pixels + 3 * i;
+
+        assert_true(at[2] == u[2]);
+        if (at[2] < 1.0f)
+            continue;
+        ++seen;
+        assert_true(fabs((double)at[0] - 2.0 * ((double)u[0] - 0.25)) < 1e-5);
+    }
+    assert_true(seen > SIDE);
+    test_run_destroy(run);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_source_bakes_the_colour_again),
         cmocka_unit_test(footprints_are_those_of_texels),
+        cmocka_unit_test(slices_lie_as_vertices_say),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
