@@ -352,8 +352,10 @@ read_exemplar(
     OTX_TRY(otx_call_aside(call, &aside));
     slices = ours.layer ? 0 : otx_exr_slice_count(path);
     otx_exr_slice_name(slices / 2, middle);
+    input.may_take = linear_only && !slices;
     OTX_TRY(otx_picture_read_layer(
-        &aside, path, slices ? middle : ours.layer, &picture));
+        input.may_take ? &call->run : &aside, path,
+        slices ? middle : ours.layer, &picture));
     OTX_TRY(keep_source(&call->run, path, &input));
     input.pixels = picture.image;
     input.alpha_is_premultiplied = picture.alpha_is_premultiplied;

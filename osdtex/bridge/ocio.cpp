@@ -268,6 +268,13 @@ otx_ocio_conversion_is_identity(const otx_ocio_conversion *conversion)
         false, [&] { return conversion->processor->isNoOp(); });
 }
 
+bool
+otx_ocio_conversion_is_apart(const otx_ocio_conversion *conversion)
+{
+    return answered<bool>(
+        false, [&] { return !conversion->processor->hasChannelCrosstalk(); });
+}
+
 otx_status
 otx_ocio_conversion_apply(
     const otx_ocio_conversion *conversion, float *pixels, int64_t count,

@@ -122,6 +122,10 @@ extern "C"
     /* Whether it leaves every pixel as it is. */
     bool otx_ocio_conversion_is_identity(const otx_ocio_conversion *conversion);
 
+    /* Whether no channel of what comes out looks at another one of what goes
+     * in. */
+    bool otx_ocio_conversion_is_apart(const otx_ocio_conversion *conversion);
+
     /* Converts in place `count` interleaved pixels of 3 or 4 channels (R, G,
      * B[, A]); A is not touched. */
     otx_status otx_ocio_conversion_apply(

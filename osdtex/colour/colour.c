@@ -2,6 +2,7 @@
  * converting pictures with it. */
 #include "colour/colour.h"
 
+#include "colour/few_values.h"
 #include "word/near.h"
 
 #include <stdio.h>
@@ -129,6 +130,7 @@ typedef struct convert_job
 {
     const otx_ocio_conversion *conversion;
     const otx_image *image;
+    bool is_apart;                            /* a curve for each channel */
     char (*messages)[OTX_OCIO_MESSAGE_BYTES]; /* one a worker */
 } convert_job;
 
@@ -137,10 +139,15 @@ convert_row(void *context, int64_t y, otx_worker *worker)
 {
     const convert_job *job = context;
     const otx_image *image = job->image;
+    float *row = otx_image_at(image, 0, (int32_t)y);
+    char *message = job->messages[worker->index];
 
-    return otx_ocio_conversion_apply(
-        job->conversion, otx_image_at(image, 0, (int32_t)y), image->width,
-        image->channels, job->messages[worker->index]);
+    return job->is_apart ? otx_few_values_apply(
+                               job->conversion, row, image->width,
+                               image->channels, message)
+                         : otx_ocio_conversion_apply(
+                               job->conversion, row, image->width,
+                               image->channels, message);
 }
 
 static otx_status
@@ -174,6 +181,7 @@ convert_rows(
     if (otx_ocio_conversion_is_identity(conversion))
         return OSDTEX_OK;
     job.conversion = conversion;
+    job.is_apart = otx_ocio_conversion_is_apart(conversion);
     job.image = image;
     job.messages =
         otx_arena_zalloc(run->scratch, threads, OTX_OCIO_MESSAGE_BYTES);

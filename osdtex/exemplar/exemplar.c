@@ -145,8 +145,8 @@ check_finite(build *b, const bringing *g)
     return OSDTEX_OK;
 }
 
-/* The file's pixels in `space`, in `arena`; their range goes into b->low and
- * b->high. */
+/* The file's pixels in `space`, in `arena`, or where arena is NULL in their
+ * place; their range goes into b->low and b->high. */
 static otx_status
 bring(build *b, otx_arena *arena, const char *space, otx_image *out)
 {
@@ -156,8 +156,11 @@ bring(build *b, otx_arena *arena, const char *space, otx_image *out)
     const bool converts = b->decoder || strcmp(b->source_space, space) != 0;
     bringing g = {.b = b, .space = space, .to = out};
 
-    OTX_TRY(otx_image_create(
-        b->run, arena, pixels->width, pixels->height, has_alpha ? 4 : 3, out));
+    *out = *pixels;
+    if (arena)
+        OTX_TRY(otx_image_create(
+            b->run, arena, pixels->width, pixels->height, has_alpha ? 4 : 3,
+            out));
     /* Without a conversion premultiplied pixels pass bit by bit. */
     g.divide_alpha = has_alpha && premultiplied && converts;
     g.multiply_alpha =
@@ -178,7 +181,12 @@ bring(build *b, otx_arena *arena, const char *space, otx_image *out)
 static otx_status
 build_linear(build *b)
 {
-    OTX_TRY(bring(b, b->run->arena, b->linear_space, &b->out->linear));
+    const otx_exemplar_input *input = b->input;
+    const bool takes =
+        input->may_take && input->linear_only && input->pixels.channels >= 3;
+
+    OTX_TRY(bring(
+        b, takes ? NULL : b->run->arena, b->linear_space, &b->out->linear));
     b->work = b->out->linear;
     if (b->input->linear_only || strcmp(b->pixel_space, b->work_space) == 0)
         return OSDTEX_OK;

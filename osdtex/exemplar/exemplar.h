@@ -73,7 +73,9 @@ enum
  * all but `pixels`. */
 typedef struct otx_exemplar_input
 {
-    otx_image pixels; /* grey, grey + A, RGB or RGBA; left as it is */
+    otx_image
+        pixels;    /* grey, grey + A, RGB or RGBA; left as it is, but where */
+    bool may_take; /* `linear` may be made in its place: it lives as long */
     /* Colour is already multiplied by A, as in EXR (not in PNG). */
     bool alpha_is_premultiplied;
     otx_colour_source source; /* what the file and --from say of its colours */

@@ -74,7 +74,7 @@ through(const otx_cut_cost *cost, const flank *side, int32_t count)
     {
         const otx_vec2 p =
             otx_vec2_lerp(side->ends[0], side->ends[1], (i + 0.5) / count);
-        float depth;
+        float depth = 0.0f;
 
         otx_view_value(
             otx_view_of(outline, e->wrap_x, e->wrap_y),

@@ -224,7 +224,7 @@ look_up(
     const int32_t size = otx_level_face_size(leaf, face);
     const float *a = layout->leaf_uvs + 2 * (first + k);
     const float *b = layout->leaf_uvs + 2 * (first + (k + 1) % size);
-    float value;
+    float value = 0.0f;
 
     otx_view_value(
         otx_view_of(image, false, false),
