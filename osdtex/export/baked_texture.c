@@ -3,6 +3,7 @@
 #include "export/baked_texture.h"
 
 #include "bake/bake.h"
+#include "export/companion_files.h"
 #include "export/texture_file.h"
 #include "file/exr.h"
 
@@ -59,6 +60,7 @@ otx_baked_texture_lay_out(
 typedef struct target
 {
     otx_exr_writer *exr; /* NULL: into the image */
+    int32_t map;         /* whose blocks are taken; -1 the colour's */
     otx_image image;
     otx_exr_chunk chunks[OTX_BAKE_SLOTS];
 } target;
@@ -67,13 +69,14 @@ static void
 take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 {
     target *t = user;
+    const otx_bake_block taken = otx_bake_block_of(block, t->map);
 
     if (t->exr)
         otx_exr_pack(
-            t->exr, lane, block->level, block->x, block->y, block->pixels,
-            block->stride, &t->chunks[slot]);
+            t->exr, lane, block->level, block->x, block->y, taken.pixels,
+            taken.stride, &t->chunks[slot]);
     else
-        otx_bake_copy(block, &t->image);
+        otx_bake_copy(&taken, &t->image);
 }
 
 static otx_status
@@ -85,33 +88,45 @@ put(void *user, int32_t slot, int32_t level, int32_t x, int32_t y)
                   : OSDTEX_OK;
 }
 
+/* The blocks of a bake, or of one of its maps, as an EXR. */
 static otx_status
 write_exr(
     otx_run *run, otx_atomic_file_set *set, const char *path,
-    const otx_exemplar *exemplar, otx_bake *bake)
+    const otx_exr_options *options, const otx_bake *bake, int32_t map)
 {
     const int32_t side = bake->source.layout->side;
-    const otx_exr_size size = {side, side, bake->source.channels};
-    otx_exr_options options = otx_exr_options_default();
+    const otx_exr_size size = {
+        side, side,
+        map < 0 ? bake->source.channels
+                : otx_companion_channels((otx_companion_kind)map)};
     target *t = OTX_ZNEW(run->scratch, target, 1);
     const otx_bake_sink sink = {
         .take = take, .put = put, .user = t, .share = 1.0};
 
     if (!t)
         return otx_fail_memory(run, STAGE);
-    options.has_chromaticities = exemplar->has_chromaticities;
-    memcpy(
-        options.chromaticities, exemplar->chromaticities,
-        sizeof options.chromaticities);
-    options.color_space = exemplar->linear_space;
-    options.interop_id = exemplar->interop_id;
-    OTX_TRY(otx_exr_begin(run, set, path, size, &options, &t->exr));
+    t->map = map;
+    OTX_TRY(otx_exr_begin(run, set, path, size, options, &t->exr));
     for (int32_t i = 0; i < OTX_BAKE_SLOTS; ++i)
         t->chunks[i].bytes =
             OTX_NEW(run->scratch, uint8_t, otx_exr_packed_bytes(t->exr));
     OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_bake_tile(run, bake, 0, &sink));
     return otx_exr_end(t->exr);
+}
+
+static otx_exr_options
+color_options(const otx_exemplar *exemplar)
+{
+    otx_exr_options options = otx_exr_options_default();
+
+    options.has_chromaticities = exemplar->has_chromaticities;
+    memcpy(
+        options.chromaticities, exemplar->chromaticities,
+        sizeof options.chromaticities);
+    options.color_space = exemplar->linear_space;
+    options.interop_id = exemplar->interop_id;
+    return options;
 }
 
 static otx_status
@@ -125,10 +140,35 @@ write_png(
 
     if (!t)
         return otx_fail_memory(run, STAGE);
+    t->map = -1;
     OTX_TRY(otx_image_create(
         run, run->scratch, side, side, bake->source.channels, &t->image));
     OTX_TRY(otx_bake_tile(run, bake, 0, &sink));
     return otx_texture_file_write_png(run, set, path, &t->image);
+}
+
+/* The map of a kind, where an exemplar has it. */
+static otx_status
+write_map(
+    otx_run *run, otx_atomic_file_set *set, const char *color,
+    const otx_mapping *mapping, const otx_exemplar *exemplars,
+    const otx_layout *layout, otx_companion_kind kind)
+{
+    const otx_exr_options file = otx_companion_files_options(kind);
+    const otx_bake_options options = {
+        .kind = OTX_TEXEL_COLOR,
+        .maps = 1u << kind,
+        .maps_alone = true,
+        .normals_y_down = exemplars->companions.written_y_down};
+    const char *path = otx_companion_files_path(run, color, kind);
+    otx_bake bake;
+
+    if (!path)
+        return otx_fail_memory(run, STAGE);
+    OTX_TRY(otx_bake_create(run, mapping, exemplars, layout, &options, &bake));
+    return bake.maps.texels.channels > 0
+               ? write_exr(run, set, path, &file, &bake, (int32_t)kind)
+               : OSDTEX_OK;
 }
 
 otx_status
@@ -137,10 +177,16 @@ otx_baked_texture_write(
     const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_layout *layout)
 {
+    const otx_exr_options file = color_options(exemplars);
     const otx_bake_options options = {.kind = OTX_TEXEL_COLOR};
     otx_bake bake;
 
     OTX_TRY(otx_bake_create(run, mapping, exemplars, layout, &options, &bake));
-    return exemplars->as_png ? write_png(run, set, path, &bake)
-                             : write_exr(run, set, path, exemplars, &bake);
+    OTX_TRY(
+        exemplars->as_png ? write_png(run, set, path, &bake)
+                          : write_exr(run, set, path, &file, &bake, -1));
+    for (int k = 0; k < OTX_COMPANION_COUNT; ++k)
+        OTX_TRY(write_map(
+            run, set, path, mapping, exemplars, layout, (otx_companion_kind)k));
+    return OSDTEX_OK;
 }

@@ -17,8 +17,9 @@ otx_status otx_baked_texture_lay_out(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     int32_t side, otx_layout *out);
 
-/* Bakes the colour onto `layout` as the texture `path` of `set`. ARGUMENT, IO,
- * NUMERIC, MEMORY, CANCELLED. */
+/* Bakes the colour onto `layout` as the texture `path` of `set`, and the maps
+ * that any exemplar has beside it, as companion_files.h names them. ARGUMENT,
+ * IO, NUMERIC, MEMORY, CANCELLED. */
 otx_status otx_baked_texture_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const otx_mapping *mapping, const otx_exemplar *exemplars,

@@ -19,9 +19,9 @@ otx_companion_files_options(otx_companion_kind kind)
     return options;
 }
 
-/* "FOLDER/NAME_normal.exr" of "FOLDER/NAME.exr", in run->arena. */
-static const char *
-path_of(otx_run *run, const char *color, otx_companion_kind kind)
+const char *
+otx_companion_files_path(
+    otx_run *run, const char *color, otx_companion_kind kind)
 {
     const char *name = otx_companion_name(kind);
     const size_t base = (size_t)(strrchr(color, '.') - color);
@@ -44,9 +44,10 @@ otx_companion_files_names(
     const char *names[OTX_COMPANION_COUNT];
 
     for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
-        names[k] = companions->maps[k].is_there
-                       ? path_of(run, name, (otx_companion_kind)k)
-                       : NULL;
+        names[k] =
+            companions->maps[k].is_there
+                ? otx_companion_files_path(run, name, (otx_companion_kind)k)
+                : NULL;
     return (otx_data_maps){
         .normal = names[OTX_COMPANION_NORMAL],
         .normal_y_down = companions->written_y_down,
@@ -155,19 +156,43 @@ otx_companion_files_write(
         if (!exemplar->companions.maps[k].is_there)
             continue;
         OTX_TRY(write_map(
-            run, set, path_of(run, path, kind), exemplar, kind, width));
+            run, set, otx_companion_files_path(run, path, kind), exemplar, kind,
+            width));
         otx_arena_release(run->scratch, mark);
     }
     return OSDTEX_OK;
 }
 
-void
-otx_companion_files_say_gaps(otx_run *run, bool is_atlas, const char *height)
+/* Faces of other than four corners. */
+static int32_t
+count_others(const otx_level *cage)
 {
-    if (!is_atlas && height)
+    int32_t count = 0;
+
+    for (int32_t f = 0; f < cage->face_count; ++f)
+        count += otx_level_face_size(cage, f) != 4;
+    return count;
+}
+
+void
+otx_companion_files_say_gaps(
+    otx_run *run, bool is_atlas, const otx_level *cage, const char *height)
+{
+    const int32_t others = height && is_atlas ? count_others(cage) : 0;
+
+    if (!height)
+        return;
+    if (!is_atlas)
         otx_note(
             run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
             "on the cage's own UVs heights cannot be the same from both sides "
             "of a cut everywhere, so what they displace may open there; an "
             "atlas of quads has no such gaps");
+    else if (others > 0)
+        otx_note(
+            run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
+            "%d of %d faces are triangles or polygons: at their edges in the "
+            "atlas heights cannot be the same from both sides everywhere, so "
+            "what they displace may open there; quads have no such gaps",
+            (int)others, (int)cage->face_count);
 }

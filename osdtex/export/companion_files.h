@@ -6,10 +6,16 @@
 #include "file/atomic_file.h"
 #include "file/data_maps.h"
 #include "file/exr.h"
+#include "surface/level.h"
 
 /* How a map of this kind is written: as data, heights in 32 bits, all others in
  * 16; one channel Y, or of normals R, G, B. */
 otx_exr_options otx_companion_files_options(otx_companion_kind kind);
+
+/* "FOLDER/NAME_normal.exr" of "FOLDER/NAME.exr", in run->arena; NULL when
+ * memory is out. */
+const char *otx_companion_files_path(
+    otx_run *run, const char *color, otx_companion_kind kind);
 
 /* What texts beside it call the maps of the texture `name`; NULL those that the
  * exemplar lacks. In run->arena, which tells when memory is out. */
@@ -25,11 +31,13 @@ otx_status otx_companion_files_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const otx_exemplar *exemplar, double width);
 
-/* Says that heights on a cage's own UVs do not meet everywhere: the two sides
- * of a cut have texels of their own.
+/* Says where heights do not meet everywhere: on a cage's own UVs, and in an
+ * atlas at the edges of triangles and polygons, the two sides of a cut have
+ * texels of their own.
  *
+ *   cage    whose faces the atlas has
  *   height  what their file is called; NULL there are none */
-void
-otx_companion_files_say_gaps(otx_run *run, bool is_atlas, const char *height);
+void otx_companion_files_say_gaps(
+    otx_run *run, bool is_atlas, const otx_level *cage, const char *height);
 
 #endif

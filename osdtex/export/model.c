@@ -384,6 +384,19 @@ typedef struct texture_source
     const otx_layout *layout; /* NULL: the exemplars */
 } texture_source;
 
+/* Which maps any of the exemplars has. */
+static otx_companions
+maps_of_any(const texture_source *from)
+{
+    otx_companions any = from->exemplars->companions;
+
+    for (int32_t k = 1; k < otx_source_count(from->mapping); ++k)
+        for (int i = 0; i < OTX_COMPANION_COUNT; ++i)
+            any.maps[i].is_there |=
+                from->exemplars[k].companions.maps[i].is_there;
+    return any;
+}
+
 static otx_status
 write_mtl(
     otx_run *run, otx_atomic_file_set *set, const otx_names *names,
@@ -393,6 +406,7 @@ write_mtl(
     otx_mtl_material *list =
         OTX_NEW(run->scratch, otx_mtl_material, materials->count);
     const otx_mtl mtl = {names->mtl, materials->count, list};
+    const otx_companions any = maps_of_any(from);
     const char *temporary;
 
     OTX_TRY(otx_run_ok(run));
@@ -405,9 +419,9 @@ write_mtl(
             .diffuse = {1.0f, 1.0f, 1.0f},
             .map_kd = names->texture_names[k],
         };
-        if (!from->layout)
-            list[i].maps = otx_companion_files_names(
-                run, names->texture_names[k], &from->exemplars[k].companions);
+        list[i].maps = otx_companion_files_names(
+            run, names->texture_names[k],
+            from->layout ? &any : &from->exemplars[k].companions);
     }
     OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_atomic_file_add(run, set, names->mtl, &temporary));
@@ -506,21 +520,13 @@ write_named(
 
 /* What the mapping has and its UVs, or the texture of its pastes, have not. */
 static void
-say_what_is_left(
-    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
-    const char *path)
+say_what_is_left(otx_run *run, const otx_mapping *mapping, const char *path)
 {
     if (mapping->field && !otx_baked_texture_is_needed(mapping))
         otx_note(
             run, OSDTEX_SEVERITY_WARNING, STAGE, otx_where_file(path),
             "UVs cannot say what was healed, so seams are in it as they were; "
             "a bake has them healed");
-    if (otx_baked_texture_is_needed(mapping) &&
-        otx_companions_are_there(&exemplars->companions))
-        otx_note(
-            run, OSDTEX_SEVERITY_WARNING, STAGE, otx_where_file(path),
-            "of what is baked only the colour is written beside the mesh; a "
-            "bake has all maps of the material");
 }
 
 otx_status
@@ -540,7 +546,7 @@ otx_model_write(
     OTX_TRY(otx_names_number(
         run, run->arena, textures, otx_texture_file_extension(exemplars),
         &names));
-    say_what_is_left(run, mapping, exemplars, names.obj);
+    say_what_is_left(run, mapping, names.obj);
     status = write_named(run, mapping, exemplars, options, &names, &uv_count);
     otx_arena_release(run->scratch, mark);
     if (status != OSDTEX_OK)

@@ -48,14 +48,24 @@ class Lapped(ProgramTest):
         self.assertEqual(struct.unpack("<4i", header[at:at + 16]),
                          (0, 0, 255, 255))
 
-    def test_maps_of_a_material_are_missed_aloud(self):
-        """Only the colour is baked beside the mesh."""
+    def test_maps_of_a_material_are_baked_beside_the_mesh(self):
+        """Onto the atlas of the colour, and the MTL names them."""
         result = self.run_program(
             "map", CAGE, *HOW, "--level", "1", "--resolution", "256", "--material",
             EXEMPLARS.parent / "materials" / "waves", "-o",
             self.folder / "out.obj")
         self.assert_exit(result, 0)
-        self.assertIn("only the colour is written", result.stderr)
+        library = (self.folder / "out.mtl").read_text()
+        for line in ("map_Pr out_roughness.exr", "map_Pm out_metalness.exr",
+                     "norm out_normal.exr", "disp out_height.exr"):
+            self.assertIn(line, library)
+        self.assertTrue((self.folder / "out_occlusion.exr").exists())
+        # The normals' size is the colour's: they lie on the same atlas.
+        for name in ("out.exr", "out_normal.exr"):
+            header = (self.folder / name).read_bytes()
+            at = header.index(b"dataWindow\0box2i\0") + 17 + 4
+            self.assertEqual(struct.unpack("<4i", header[at:at + 16]),
+                             (0, 0, 255, 255))
 
     def test_what_takes_for_ever_is_refused(self):
         result = self.run_map(CAGE, PICTURE, *HOW, "--scale", "1e-4")

@@ -69,6 +69,19 @@ class Material(ProgramTest):
             self.picture("a.1001.exr")[-20000:],
             self.picture("b.1001.exr")[-20000:])
 
+    def test_where_heights_may_open_is_said(self):
+        for cage, words in (("torus", None),
+                            ("ngons_and_triangles", "are triangles or polygons")):
+            result = self.run_program(
+                "bake", CAGES / f"{cage}.obj", "--material", self.set, "-o",
+                self.folder / f"{cage}.obj", "--level", "0", "--uvs", "atlas",
+                "--resolution", "64")
+            self.assert_exit(result, 0)
+            if words:
+                self.assertIn(words, result.stderr)
+            else:
+                self.assertNotIn("may open there", result.stderr)
+
     def test_map_writes_them_beside(self):
         result = self.bake(
             self.color, "--map", f"normal={self.set}/Peb_1K_NormalGL.png",
