@@ -32,6 +32,13 @@ otx_cover_exemplar(const otx_cover *cover, int32_t patch)
     return cover->patch_exemplar ? cover->patch_exemplar[patch] : 0;
 }
 
+/* Whether a patch was there before an edit, and is left where it lies. */
+static bool
+stays(const otx_mosaic_job *job, int32_t patch)
+{
+    return job->given && job->given->state && patch < job->given->patch_count;
+}
+
 /* Whole pictures by which each patch is moved so that its first corner lies in
  * [0, 1): floats are finest there. */
 static otx_status
@@ -39,7 +46,7 @@ write_uvs(const otx_mosaic_job *job, const otx_cover *cover, otx_mapping *out)
 {
     const otx_level *leaf = job->leaves.level;
     otx_vec2 *shift =
-        OTX_NEW(job->run->scratch, otx_vec2, cover->patch_count + 1);
+        OTX_ZNEW(job->run->scratch, otx_vec2, cover->patch_count + 1);
     uint8_t *known =
         OTX_ZNEW(job->run->scratch, uint8_t, cover->patch_count + 1);
 
@@ -58,7 +65,7 @@ write_uvs(const otx_mosaic_job *job, const otx_cover *cover, otx_mapping *out)
 
             if (p < 0)
                 uv = (otx_vec2){0, 0};
-            else if (!known[p])
+            else if (!known[p] && !stays(job, p))
             {
                 shift[p].x = e->wrap_x ? floor(uv.x) : 0.0;
                 shift[p].y = e->wrap_y ? floor(uv.y) : 0.0;
@@ -73,7 +80,8 @@ write_uvs(const otx_mosaic_job *job, const otx_cover *cover, otx_mapping *out)
     return OSDTEX_OK;
 }
 
-/* Patches keep their order; those that the cut emptied lose their number. */
+/* Patches keep their order; those that the cut emptied lose their number, but
+ * for those that were there before an edit. */
 static otx_status
 number_patches(
     const otx_mosaic_job *job, const otx_cover *cover, otx_mapping *out)
@@ -88,6 +96,8 @@ number_patches(
             number[cover->face_patch[f]] = 1;
     for (int32_t p = 0; p < cover->patch_count; ++p)
     {
+        if (stays(job, p))
+            number[p] = 1;
         /* Patches come before their numbers: none is overwritten unread. */
         if (number[p] && cover->patch_exemplar)
             cover->patch_exemplar[out->patch_count] = cover->patch_exemplar[p];

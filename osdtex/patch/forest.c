@@ -160,13 +160,12 @@ list_parts(otx_mosaic *m, otx_cluster_part *parts, int32_t *count)
         parts[0].target = 0.0;
         return whole_level(m, 0, &parts[0].region);
     }
+    *count = m->job.exemplar_count;
     if (m->job.given)
-        OTX_TRY(otx_given_region(&m->job, &m->cover, &regions[0]));
+        for (int32_t k = 0; k < *count; ++k)
+            OTX_TRY(otx_given_region(&m->job, &m->cover, k, &regions[k]));
     else
-    {
-        *count = m->job.exemplar_count;
         OTX_TRY(otx_supply_regions(m, atom_level(m), regions));
-    }
     for (int32_t k = 0; k < *count; ++k)
     {
         const double side = m->supplies.items[k].settings.patch / m->job.texels;

@@ -4,6 +4,15 @@
 
 #include "math/vec.h"
 
+#include <stdbool.h>
+
+/* What an edit may do to a face that is textured. */
+enum
+{
+    OTX_GIVEN_HELD = 0, /* nothing: it shows the same afterwards, to the bit */
+    OTX_GIVEN_FREE = 1  /* move it, and give it to a patch that fits better */
+};
+
 /* What is textured before patches cover the rest. */
 typedef struct otx_patch_given
 {
@@ -12,6 +21,18 @@ typedef struct otx_patch_given
     const otx_vec2 *uvs; /* [leaf corner_count] texels; corners that share
                           * vertex and patch are equal */
     double reach;        /* texels from a seam within which they may be moved */
+    /* Of edits, the three NULL otherwise. [leaf face_count] OTX_GIVEN_...; of
+     * faces to be covered it says nothing. Shapes are then the surface's, and
+     * patches keep their numbers, new ones come after them. */
+    const uint8_t *state;
+    /* [leaf face_count] the patch that a face to be covered was of, which may
+     * still have it at its `uvs`; -1 none. */
+    const int32_t *before;
+    const uint8_t *patch_exemplar; /* [patch_count] NULL: the first */
+    /* What faces to be covered showed, at `uvs`, is to be shown by them as
+     * little as can be, and another seed prefers other parts of the exemplar.
+     */
+    bool avoid;
 } otx_patch_given;
 
 #endif

@@ -14,6 +14,10 @@ otx_given_take(const otx_mosaic_job *job, otx_cover *cover)
     const otx_patch_given *given = job->given;
 
     cover->patch_count = given->patch_count;
+    if (given->patch_exemplar && cover->patch_exemplar)
+        memcpy(
+            cover->patch_exemplar, given->patch_exemplar,
+            (size_t)given->patch_count);
     memcpy(
         cover->uvs, given->uvs,
         (size_t)leaf->corner_count * sizeof *cover->uvs);
@@ -25,9 +29,18 @@ otx_given_take(const otx_mosaic_job *job, otx_cover *cover)
     }
 }
 
+bool
+otx_given_holds(const otx_mosaic_job *job, int32_t face)
+{
+    return job->given && job->given->state &&
+           job->given->face_patch[face] >= 0 &&
+           job->given->state[face] == OTX_GIVEN_HELD;
+}
+
 otx_status
 otx_given_region(
-    const otx_mosaic_job *job, const otx_cover *cover, otx_cluster *out)
+    const otx_mosaic_job *job, const otx_cover *cover, int32_t exemplar,
+    otx_cluster *out)
 {
     const otx_level *leaf = job->leaves.level;
     int32_t *faces = OTX_NEW(job->run->arena, int32_t, leaf->face_count);
@@ -35,12 +48,26 @@ otx_given_region(
     OTX_TRY(otx_run_ok(job->run));
     *out = (otx_cluster){job->leaves.level_index, 0, faces, 0.0, -1};
     for (int32_t f = 0; f < leaf->face_count; ++f)
-        if (cover->face_patch[f] < 0 && !leaf->face_hole[f])
+        if (cover->face_patch[f] < 0 && !leaf->face_hole[f] &&
+            otx_supply_wanted(job, f) == exemplar)
         {
             faces[out->face_count++] = f;
             out->area += job->leaves.areas[f];
         }
     return OSDTEX_OK;
+}
+
+/* The given patch that offers a face, -1 none. */
+static int32_t
+patch_of(const otx_mosaic *m, int32_t face)
+{
+    const otx_patch_given *given = m->job.given;
+
+    if (m->job.leaves.level->face_hole[face])
+        return -1;
+    if (given->face_patch[face] < 0 && given->before)
+        return given->before[face];
+    return given->face_patch[face];
 }
 
 /* The faces of one given patch, at their UVs. */
@@ -55,7 +82,7 @@ offer_patch(const otx_mosaic *m, int32_t patch, int32_t count, otx_offer *out)
 
     OTX_TRY(otx_run_ok(m->job.run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
-        if (m->job.given->face_patch[f] == patch && !leaf->face_hole[f])
+        if (patch_of(m, f) == patch)
         {
             faces[n] = f;
             first[n++] = corners;
@@ -68,7 +95,8 @@ offer_patch(const otx_mosaic *m, int32_t patch, int32_t count, otx_offer *out)
         memcpy(
             uvs + first[i], m->job.given->uvs + leaf->face_first[faces[i]],
             (size_t)(first[i + 1] - first[i]) * sizeof *uvs);
-    *out = (otx_offer){n, faces, uvs, first, NULL, 0};
+    *out = (otx_offer){
+        n, faces, uvs, first, NULL, otx_cover_exemplar(&m->cover, patch)};
     return OSDTEX_OK;
 }
 
@@ -81,8 +109,8 @@ otx_given_offers(const otx_mosaic *m, otx_offer *offers)
 
     OTX_TRY(otx_run_ok(m->job.run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
-        if (m->job.given->face_patch[f] >= 0 && !leaf->face_hole[f])
-            ++counts[m->job.given->face_patch[f]];
+        if (patch_of(m, f) >= 0)
+            ++counts[patch_of(m, f)];
     for (int32_t p = 0; p < m->job.given->patch_count; ++p)
         OTX_TRY(offer_patch(m, p, counts[p], &offers[p]));
     return OSDTEX_OK;

@@ -7,10 +7,13 @@
 
 /* Takes over what is textured already. */
 void otx_given_take(const otx_mosaic_job *job, otx_cover *cover);
-/* What is not textured, as one cluster of leaves, in run->arena; without faces
- * when all is. MEMORY. */
+/* Whether an edit leaves a leaf face as it is. */
+bool otx_given_holds(const otx_mosaic_job *job, int32_t face);
+/* What is not textured and asks for an exemplar, as one cluster of leaves, in
+ * run->arena; without faces when all is. MEMORY. */
 otx_status otx_given_region(
-    const otx_mosaic_job *job, const otx_cover *cover, otx_cluster *out);
+    const otx_mosaic_job *job, const otx_cover *cover, int32_t exemplar,
+    otx_cluster *out);
 /* The offers of the given patches, which are the first of all. */
 otx_status otx_given_offers(const otx_mosaic *m, otx_offer *offers);
 

@@ -21,6 +21,9 @@ list_supplies(otx_mosaic *m, const otx_guide *guides)
         otx_patch_resolve(&s->settings, m->job.exemplars, m->job.surface->cage);
         if (k > 0)
             otx_patch_adapt(&s->settings, m->job.exemplars, s->exemplar);
+        /* What goes on as it was would be what is not wanted. */
+        if (m->job.given && m->job.given->avoid)
+            s->settings.continuation = 0;
     }
     m->job.settings = m->supplies.items[0].settings;
 }

@@ -48,7 +48,7 @@ offer_cost(const otx_mosaic *m, const otx_node *node, int32_t i)
     const float foreign = otx_supply_cost(m, node, chart->faces[i]);
     double s[2], turn = 0.0;
 
-    if (foreign < 0.0f ||
+    if (foreign < 0.0f || otx_given_holds(&m->job, chart->faces[i]) ||
         (node->patch != 0 && otx_first_holds(m, chart->faces[i])))
         return -1.0f;
     otx_chart_face_stretch(chart, m->job.surface, m->job.texels, i, s);
@@ -220,10 +220,42 @@ cut(otx_mosaic *m)
     return OSDTEX_OK;
 }
 
+/* What an edit may move, and what is around it, which is held.
+ *
+ *   inside, still  [leaf face_count] in run->scratch; NULL where there is no
+ *                  edit */
+static otx_status
+bound(const otx_mosaic *m, uint8_t **inside, uint8_t **still)
+{
+    const otx_level *leaf = m->job.leaves.level;
+    otx_arena *arena = m->job.run->scratch;
+    uint8_t *verts;
+
+    *inside = *still = NULL;
+    if (!m->job.given || !m->job.given->state)
+        return OSDTEX_OK;
+    verts = OTX_ZNEW(arena, uint8_t, leaf->vert_count);
+    *inside = OTX_ZNEW(arena, uint8_t, leaf->face_count);
+    *still = OTX_ZNEW(arena, uint8_t, leaf->face_count);
+    OTX_TRY(otx_run_ok(m->job.run));
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        (*still)[f] = otx_given_holds(&m->job, f);
+        for (int32_t c = leaf->face_first[f];
+             !(*still)[f] && c < leaf->face_first[f + 1]; ++c)
+            verts[leaf->face_verts[c]] = 1;
+    }
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        for (int32_t c = leaf->face_first[f]; c < leaf->face_first[f + 1]; ++c)
+            (*inside)[f] |= verts[leaf->face_verts[c]];
+    return OSDTEX_OK;
+}
+
 static otx_status
 relax(otx_mosaic *m)
 {
-    const otx_elastic_options options = {
+    const otx_arena_mark mark = otx_arena_here(m->job.run->scratch);
+    otx_elastic_options options = {
         .texels = m->job.texels,
         .rounds = m->job.settings.relax_rounds,
         .levels = 3,
@@ -232,15 +264,20 @@ relax(otx_mosaic *m)
         .reach = m->job.given ? m->job.given->reach : 0.0,
         .patch_exemplar = m->cover.patch_exemplar,
         .exemplar_count = m->job.exemplar_count,
-        .keep_shape = m->job.given != NULL,
+        .keep_shape = m->job.given && !m->job.given->state,
     };
     otx_elastic_stats stats;
+    uint8_t *inside, *still;
 
+    OTX_TRY(bound(m, &inside, &still));
+    options.inside = inside;
+    options.still = still;
     OTX_TRY(otx_elastic_run(
         m->job.run, m->job.surface, m->job.exemplars, &options,
         m->cover.face_patch, m->cover.uvs, &stats));
     m->tally.relax_before = stats.seam_before;
     m->tally.relax_after = stats.seam_after;
+    otx_arena_release(m->job.run->scratch, mark);
     return OSDTEX_OK;
 }
 
@@ -251,9 +288,10 @@ otx_stitch_run(otx_mosaic *m)
 
     assert(!otx_forest_check(m));
     /* Nothing was covered: there is nothing to join to what is given. */
-    if (m->job.given && m->forest.count == 0)
+    if (m->job.given && !m->job.given->state && m->forest.count == 0)
         return OSDTEX_OK;
-    if (s->cut == OTX_PATCH_ON && m->cover.patch_count > 1)
+    if (s->cut == OTX_PATCH_ON && m->cover.patch_count > 1 &&
+        m->forest.count > 0)
     {
         otx_figures_stage(m->job.figures, "cut");
         OTX_TRY(cut(m));

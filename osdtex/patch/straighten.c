@@ -5,6 +5,7 @@
  * side: nobody sees it, but programs that refuse reversed faces do. Where it is
  * on the wrong side it is moved, in all faces that share it, just across. */
 #include "patch/straighten.h"
+#include "patch/given_patches.h"
 #include "surface/limit.h"
 
 static const double FARTHEST = 4.0; /* texels: what is moved more would show */
@@ -145,6 +146,21 @@ plan(straightener *s)
             plan_shift(s, f);
 }
 
+/* Gives up what would change a face that an edit leaves alone. */
+static void
+spare_held(straightener *s)
+{
+    for (int32_t f = 0; f < s->leaf->face_count; ++f)
+        for (int32_t c = s->leaf->face_first[f];
+             otx_given_holds(s->job, f) && c < s->leaf->face_first[f + 1]; ++c)
+        {
+            shift *by = shift_of(s, c);
+
+            if (by)
+                by->dropped = true;
+        }
+}
+
 /* Gives up what would reverse a face that has area, until nothing does. */
 static void
 spare_others(straightener *s)
@@ -210,6 +226,7 @@ otx_straighten(const otx_mosaic_job *job, otx_cover *cover)
         if (s.count == 0)
             break;
         stay_inside(&s);
+        spare_held(&s);
         spare_others(&s);
         apply(&s);
     }

@@ -5,8 +5,19 @@
 #include "patch/mosaic.h"
 
 #include "analysis/edges.h"
+#include "base/random.h"
 #include "relax/cut.h"
 #include "surface/distance.h"
+
+enum
+{
+    STAGE_AVOID = 0x41564F49 /* of random numbers */
+};
+
+/* Usage of what faces showed that are to show something else, and the largest
+ * of all the rest: 1 is an even share of the surface. */
+static const double USED_BEFORE = 8.0;
+static const double USED_AT_RANDOM = 4.0;
 
 /* The area that asks for each, of the leaves that are no holes. */
 static void
@@ -48,6 +59,31 @@ match_picture(otx_mosaic *m, int32_t k, otx_image *out, double *sigma)
         m->supplies.edge_unit, out);
 }
 
+/* As if what is not to be shown again had been used a lot, and all else here
+ * and there. */
+static void
+use_up(const otx_mosaic *m, int32_t k, float *usage)
+{
+    const otx_patch_given *given = m->job.given;
+    const otx_level *leaf = m->job.leaves.level;
+    const otx_image *match = &m->supplies.items[k].exemplar->match;
+
+    for (int32_t i = 0; i < OTX_USAGE_CELLS * OTX_USAGE_CELLS; ++i)
+        usage[i] =
+            (float)(USED_AT_RANDOM * otx_random_unit(m->job.run->seed, STAGE_AVOID, (uint64_t)i));
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        const otx_vec2 at = given->uvs[leaf->face_first[f]];
+        const double u = at.x / match->width, v = at.y / match->height;
+        const int32_t x = (int32_t)((u - floor(u)) * OTX_USAGE_CELLS);
+        const int32_t y = (int32_t)((v - floor(v)) * OTX_USAGE_CELLS);
+
+        if (given->face_patch[f] < 0 && x < OTX_USAGE_CELLS &&
+            y < OTX_USAGE_CELLS)
+            usage[y * OTX_USAGE_CELLS + x] = (float)USED_BEFORE;
+    }
+}
+
 static otx_status
 prepare(otx_mosaic *m, int32_t k)
 {
@@ -60,6 +96,8 @@ prepare(otx_mosaic *m, int32_t k)
     s->usage =
         OTX_ZNEW(m->job.run->arena, float, OTX_USAGE_CELLS *OTX_USAGE_CELLS);
     OTX_TRY(otx_run_ok(m->job.run));
+    if (m->job.given && m->job.given->avoid)
+        use_up(m, k, s->usage);
     OTX_TRY(match_picture(m, k, &match, &sigma));
     OTX_TRY(otx_matcher_create_like(
         m->job.run, &match, e->wrap_x, e->wrap_y, sigma, s->settings.coarse,

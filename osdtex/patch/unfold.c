@@ -6,6 +6,7 @@
  * shape, flat, turned and scaled to fit best where it was. */
 #include "patch/unfold.h"
 #include "cluster/dual.h"
+#include "patch/given_patches.h"
 #include "surface/limit.h"
 
 enum
@@ -141,7 +142,7 @@ otx_unfold(const otx_mosaic_job *job, otx_cover *cover)
         int32_t supply;
         sheet s;
 
-        if (cover->face_patch[f] < 0 ||
+        if (cover->face_patch[f] < 0 || otx_given_holds(job, f) ||
             otx_level_face_size(leaf, f) > SIZE_MAX_HERE ||
             otx_limit_face_is_flat(leaf, job->surface->points, f))
             continue;

@@ -283,15 +283,21 @@ otx_elastic_run(
             {.exemplars = exemplars,
              .count = options->patch_exemplar ? options->exemplar_count : 1},
     };
-    uint8_t *inside = NULL;
+    const otx_sheet_part *part = NULL;
+    otx_sheet_part chosen = {options->inside, options->still};
+    uint8_t *near = NULL;
 
     *out = (otx_elastic_stats){0};
-    if (options->reach > 0.0)
+    if (options->reach > 0.0 && !options->inside)
+    {
         OTX_TRY(otx_distance_mark(
-            run, surface, face_patch, options->reach / options->texels,
-            &inside));
+            run, surface, face_patch, options->reach / options->texels, &near));
+        chosen = (otx_sheet_part){near, NULL};
+    }
+    if (chosen.inside)
+        part = &chosen;
     OTX_TRY(otx_sheet_build(
-        run, surface, options->texels, face_patch, inside, uvs, &e.sheet));
+        run, surface, options->texels, face_patch, part, uvs, &e.sheet));
     if (options->keep_shape)
         OTX_TRY(keep_shape(&e));
     OTX_TRY(build_pyramids(&e));

@@ -29,6 +29,9 @@ typedef struct otx_elastic_options
     const uint8_t *patch_exemplar; /* of the exemplars, by patch; NULL: the
                                     * first throughout */
     int32_t exemplar_count;        /* that it names; 0 is 1 */
+    /* [leaf face_count] 1: faces to take instead of those within reach, and of
+     * these the ones that are not moved; NULL both. */
+    const uint8_t *inside, *still;
     bool keep_shape; /* rigidity holds the shapes that the UVs have now, not
                       * the surface's: where a texture's size varies on
                       * purpose */

@@ -167,6 +167,9 @@ otx_elastic_move(otx_elastic *e, double share, double longest, int64_t *refused)
         const otx_vec2 p = otx_vec2_add(
             e->guard.from[v], otx_vec2_scale(scale, e->system.step[v]));
 
+        s->at[v] = e->guard.from[v];
+        if (s->fixed[v])
+            continue;
         s->at[v].x = inside(p.x, from->wrap_x, from->match.width);
         s->at[v].y = inside(p.y, from->wrap_y, from->match.height);
     }

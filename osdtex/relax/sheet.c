@@ -77,6 +77,19 @@ fix_rim(
     }
 }
 
+/* Marks the variables of faces that are still. */
+static void
+fix_still(
+    const otx_level *leaf, const uint8_t *still, const int32_t *variable,
+    otx_sheet *s)
+{
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+        for (int32_t c = leaf->face_first[f];
+             still[f] && c < leaf->face_first[f + 1]; ++c)
+            if (variable[c] >= 0)
+                s->fixed[variable[c]] = 1;
+}
+
 /* One variable for each patch around each vertex; variable[corner], -1 none. */
 static void
 number_variables(
@@ -179,9 +192,10 @@ list_seams(
 otx_status
 otx_sheet_build(
     otx_run *run, const otx_surface *surface, double texels,
-    const int32_t *face_patch, const uint8_t *inside, const otx_vec2 *uvs,
+    const int32_t *face_patch, const otx_sheet_part *part, const otx_vec2 *uvs,
     otx_sheet *out)
 {
+    const uint8_t *inside = part ? part->inside : NULL;
     const otx_level *leaf = otx_surface_leaf(surface);
     otx_arena *arena = run->scratch;
     int32_t *first, *corner;
@@ -206,6 +220,8 @@ otx_sheet_build(
     number_variables(leaf, first, corner, patch, uvs, out, variable);
     if (inside)
         fix_rim(leaf, first, corner, patch, variable, face_patch, inside, out);
+    if (part && part->still)
+        fix_still(leaf, part->still, variable, out);
     list_faces(leaf, faces, variable, out);
     list_seams(surface, texels, faces, variable, out);
     mesh = (otx_rigid_mesh){out->face_count, out->count,      out->first,

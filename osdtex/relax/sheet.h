@@ -27,19 +27,26 @@ typedef struct otx_sheet
     int32_t *verts;       /* [count] leaf vertices */
     int32_t *patches;     /* [count] */
     otx_vec2 *at;         /* [count] texels */
-    uint8_t *fixed;       /* [count] 1: of a face that is left out as well */
+    uint8_t *fixed;       /* [count] 1: of a face that is left out, or still,
+                           * as well */
     int32_t seam_count;
     otx_sheet_seam *seams;
     otx_rigid rigid;
 } otx_sheet;
 
+/* A part of the faces. Seams count where both sides are taken. */
+typedef struct otx_sheet_part
+{
+    const uint8_t *inside; /* [leaf face_count] 1: taken */
+    const uint8_t *still;  /* [leaf face_count] 1: fixed; NULL none */
+} otx_sheet_part;
+
 /* In run->scratch. MEMORY.
  *
- *   inside  [leaf face_count] 1: faces to take; NULL all. Seams count where
- *           both sides are taken. */
+ *   part  NULL: all faces are taken, and none is fixed */
 otx_status otx_sheet_build(
     otx_run *run, const otx_surface *surface, double texels,
-    const int32_t *face_patch, const uint8_t *inside, const otx_vec2 *uvs,
+    const int32_t *face_patch, const otx_sheet_part *part, const otx_vec2 *uvs,
     otx_sheet *out);
 
 /* Copies the variables back to the corners. */

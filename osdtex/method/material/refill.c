@@ -183,8 +183,10 @@ otx_status
 otx_refill_run(otx_material *m, otx_mapping *out)
 {
     const otx_patch_given given = {
-        m->laid.face_patch, m->laid.patch_count, m->laid.uvs,
-        REACH * m->cell * m->texels};
+        .face_patch = m->laid.face_patch,
+        .patch_count = m->laid.patch_count,
+        .uvs = m->laid.uvs,
+        .reach = REACH * m->cell * m->texels};
     otx_map_request request = *m->job->request;
     otx_job job = *m->job;
     otx_guide guide;

@@ -79,6 +79,7 @@ what_is_out_of_reach_is_left_out(void **state)
     const otx_surface *s = test_grid_create(run->arena, 6, 1, 1.0);
     const int32_t patch[6] = {0, 0, 0, 1, 1, 1};
     otx_sheet sheet;
+    otx_sheet_part part = {NULL, NULL};
     uint8_t *inside;
     int32_t fixed = 0;
 
@@ -86,8 +87,9 @@ what_is_out_of_reach_is_left_out(void **state)
     assert_int_equal(otx_distance_mark(run, s, patch, 1.0, &inside), OSDTEX_OK);
     for (int32_t f = 0; f < 6; ++f)
         assert_int_equal(inside[f], f > 0 && f < 5);
+    part.inside = inside;
     assert_int_equal(
-        otx_sheet_build(run, s, 8.0, patch, inside, corner_uvs(run, s), &sheet),
+        otx_sheet_build(run, s, 8.0, patch, &part, corner_uvs(run, s), &sheet),
         OSDTEX_OK);
     assert_int_equal(sheet.face_count, 4);
     assert_int_equal(sheet.count, 12);
