@@ -121,6 +121,16 @@ typedef struct osdtex_constraint
     /* Of several exemplars the one to be shown, from 1; 0: not asked. Mappings
      * read it, fields do not. */
     int32_t exemplar;
+    /* Of edits of a mapping (mapping.h), from 1: those with one number are
+     * asked for together, and later numbers after earlier ones. 0: asked for
+     * when the mapping is made. Fields do not read it, nor the two below. */
+    int32_t edit;
+    /* Of an edit: the faces within this many scene units along the surface may
+     * change, others do not; 0: half a picture's width beyond what is held. */
+    double reach;
+    /* Not this texture here: which other one is to be tried, from 1; 0: not
+     * asked. */
+    int32_t redo;
     int32_t reserved;
 } osdtex_constraint;
 

@@ -186,6 +186,61 @@ osdtex_mapping_describe(const osdtex_mapping *mapping);
 OSDTEX_API const osdtex_surface *
 osdtex_mapping_surface(const osdtex_mapping *mapping);
 
+typedef struct osdtex_edit_options
+{
+    size_t size;
+    const char *constraints; /* a file, JSON or CSV, as for osdtex_map; NULL
+                              * none */
+    /* More of them, after those of the file. */
+    const osdtex_constraint *constraint_items; /* [constraint_count] */
+    int32_t constraint_count;
+    int32_t reserved;
+    double reach; /* of constraints that name none, scene units along the
+                   * surface; 0: half a picture's width */
+} osdtex_edit_options;
+
+static inline osdtex_edit_options
+osdtex_edit_options_default(void)
+{
+    osdtex_edit_options options = OSDTEX_ZERO;
+
+    options.size = sizeof options;
+    return options;
+}
+/* The same for hosts that cannot call inline functions: see osdtex.h. */
+OSDTEX_API void
+osdtex_edit_options_init(osdtex_edit_options *out, size_t bytes);
+
+/* A mapping with something asked of it afterwards, in a part of the surface:
+ *
+ *     osdtex_edit_options options = osdtex_edit_options_default();
+ *     osdtex_constraint comb = osdtex_constraint_none();
+ *
+ *     comb.point[0] = 0.3;          // around here
+ *     comb.radius = 0.1;
+ *     comb.direction[1] = 1.0;      // the texture is to run upwards
+ *     comb.reach = 0.4;             // and nothing changes farther than this
+ *     options.constraint_items = &comb;
+ *     options.constraint_count = 1;
+ *     osdtex_mapping_edit(context, mapping, &options, &edited);
+ *
+ * Directions, sizes, places along a stack and exemplars may be asked for, or
+ * another texture (`redo`). What they hold and what lies within their reach
+ * along the surface is solved and covered again, continuing what is around it;
+ * everywhere else UVs and patches are the same to the bit. All constraints of
+ * one call make one edit, unless their `edit` says otherwise.
+ *
+ * The old mapping stays as it is and may be destroyed first: a host that keeps
+ * it has undo. What was asked for is saved with the mapping, and osdtex_map()
+ * with the same constraints, their numbers in `edit`, makes the same mapping.
+ *
+ * ARGUMENT (a constraint that cannot be held, with its number), SUPPORT (a
+ * mapping whose method lays no plain patches, saying so), FORMAT, IO, LIMIT,
+ * NUMERIC, MEMORY, CANCELLED. */
+OSDTEX_API osdtex_status osdtex_mapping_edit(
+    osdtex_context *context, const osdtex_mapping *mapping,
+    const osdtex_edit_options *options, osdtex_mapping **out);
+
 typedef struct osdtex_write_options
 {
     size_t size;
@@ -242,8 +297,8 @@ typedef struct osdtex_mapping_read_options
     const char *to;
     osdtex_receiver receiver;
     int32_t without_figures; /* 1: to be baked, written and drawn, not to be
-                              * measured by osdtex_report_write(): of large
-                              * exemplars that is read much sooner */
+                              * measured by osdtex_report_write() or edited: of
+                              * large exemplars that is read much sooner */
     /* The other maps of the first exemplar's material: exemplar.h. */
     const osdtex_companion *maps; /* [map_count] */
     int32_t map_count;

@@ -74,6 +74,9 @@ struct osdtex_mapping
     uint64_t seed;
     const char *saved_path; /* the file that it was read from; NULL: it was
                              * made here, and `figures` say how */
+    /* Of an edited mapping: that of the mapping which the edits began with, and
+     * which holds exemplars and settings; NULL: its own does. */
+    otx_arena *base;
     osdtex_mapping_info info;
 };
 

@@ -48,13 +48,12 @@ read_follow(otx_run *run, const char *text, otx_constraint_set *set)
 }
 
 static otx_status
-read_file(otx_run *run, const char *path, otx_constraint_set *set)
+take_file(
+    otx_run *run, const otx_constraint_file *from, otx_constraint_set *set)
 {
-    otx_constraint_file file;
-    otx_constraint *items;
+    const otx_constraint_file file = *from;
+    otx_constraint *items = OTX_NEW(run->arena, otx_constraint, file.count);
 
-    OTX_TRY(otx_constraint_file_read(run, path, &file));
-    items = OTX_NEW(run->arena, otx_constraint, file.count);
     OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < file.count; ++i)
         items[i] = (otx_constraint){
@@ -68,6 +67,9 @@ read_file(otx_run *run, const char *path, otx_constraint_set *set)
             .material = file.lines[i].material,
             .exemplar = file.lines[i].exemplar,
             .exemplar_name = file.lines[i].exemplar_name,
+            .edit = file.lines[i].edit,
+            .redo = file.lines[i].redo,
+            .reach = file.lines[i].reach,
         };
     set->path = file.path;
     set->symmetry = file.symmetry;
@@ -81,6 +83,29 @@ read_file(otx_run *run, const char *path, otx_constraint_set *set)
         set->follow = OTX_FOLLOW_AXIS;
     set->axis = vector(file.axis);
     return OSDTEX_OK;
+}
+
+static otx_status
+read_file(otx_run *run, const char *path, otx_constraint_set *set)
+{
+    otx_constraint_file file;
+
+    OTX_TRY(otx_constraint_file_read(run, path, &file));
+    return take_file(run, &file, set);
+}
+
+otx_status
+otx_map_input_parse(
+    otx_run *run, const char *path, const char *json,
+    const otx_constraint_set **out)
+{
+    otx_constraint_set *set = OTX_ZNEW(run->arena, otx_constraint_set, 1);
+    otx_constraint_file file;
+
+    OTX_TRY(otx_run_ok(run));
+    OTX_TRY(otx_constraint_file_parse(run, path, json, &file));
+    *out = set;
+    return take_file(run, &file, set);
 }
 
 otx_status
@@ -116,6 +141,9 @@ constraint_of(const osdtex_constraint *theirs)
         .has_material = theirs->has_material != 0,
         .material = theirs->material,
         .exemplar = theirs->exemplar,
+        .edit = theirs->edit,
+        .redo = theirs->redo,
+        .reach = theirs->reach,
     };
 }
 

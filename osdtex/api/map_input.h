@@ -13,6 +13,11 @@ otx_status otx_map_input_constraints(
     otx_run *run, const char *path, const char *follow,
     const otx_constraint_set **out);
 
+/* The constraints that a saved mapping holds, as JSON text. FORMAT, MEMORY. */
+otx_status otx_map_input_parse(
+    otx_run *run, const char *path, const char *json,
+    const otx_constraint_set **out);
+
 /* A set with constraints of the host after its own.
  *
  *   from   NULL: there is nothing yet

@@ -1,6 +1,7 @@
 /* mapping_handle.c -- running a method, writing what it made. */
 #include "api/mapping_handle.h"
 #include "api/call.h"
+#include "api/edit_call.h"
 #include "api/heal_call.h"
 #include "api/map_input.h"
 #include "api/map_resolve.h"
@@ -93,6 +94,7 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
     otx_run *run = &call->run;
     const osdtex_surface *surface;
     osdtex_map_options ours = osdtex_map_options_default();
+    const otx_constraint_set *asked;
     osdtex_mapping *handle = OTX_ZNEW(run->arena, osdtex_mapping, 1);
     otx_job job;
 
@@ -113,7 +115,8 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
         OTX_TRY(otx_call_hold(run, ours.field->arena));
     OTX_TRY(otx_resolve_request(
         run, surface->cage, &exemplar->info, &ours, &handle->request));
-    OTX_TRY(otx_map_input_options(run, &ours, &handle->request.constraints));
+    OTX_TRY(otx_map_input_options(run, &ours, &asked));
+    OTX_TRY(otx_edit_call_base(run, asked, &handle->request.constraints));
     OTX_TRY(otx_several_take(run, &ours, handle));
     OTX_TRY(otx_map_input_analysis(
         run, &ours, &exemplar->exemplar, &handle->request.analysis));
@@ -125,6 +128,7 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
     job = job_of(run, handle);
     OTX_TRY(otx_method_map(handle->method, &job, &handle->mapping));
     OTX_TRY(otx_material_axis_take(run, ours.along, handle));
+    OTX_TRY(otx_edit_call_apply(run, asked, 1, handle));
     OTX_TRY(otx_heal_call(run, ours.heal, handle));
     handle->info = otx_mapping_handle_info(handle);
     *out = handle;

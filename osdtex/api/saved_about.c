@@ -376,6 +376,20 @@ parse_settings(parser *p, json_t *json, otx_saved_about *out)
     }
 }
 
+/* As the text that it was. */
+static void
+parse_constraints(parser *p, const json_t *json, otx_saved_about *out)
+{
+    char *text;
+
+    if (!json_is_object(json))
+        return;
+    text = json_dumps(json, JSON_COMPACT);
+    out->constraints = text ? otx_arena_strdup(p->run->arena, text) : NULL;
+    p->memory = p->memory && out->constraints;
+    free(text);
+}
+
 static void
 parse_all(parser *p, const json_t *root, otx_saved_about *out)
 {
@@ -402,6 +416,7 @@ parse_all(parser *p, const json_t *root, otx_saved_about *out)
     out->guide_symmetry = get_member(p, root, "guide_symmetry", 0, 4);
     out->guide_angle = get_real(p, root, "guide_angle");
     out->defect_count = get_member(p, root, "defect_count", 0, INT32_MAX);
+    parse_constraints(p, json_object_get(root, "constraints"), out);
 }
 
 otx_status

@@ -46,6 +46,7 @@ typedef struct otx_saved_about
     int32_t guide_symmetry; /* 0: no guide */
     double guide_angle;
     int32_t defect_count;
+    const char *constraints; /* JSON text; NULL none */
 } otx_saved_about;
 
 /* The hash of a cage's faces: two cages with the same one can have the same

@@ -28,6 +28,12 @@ print_item(const otx_constraint *c)
         json_object_set_new(item, "material", json_real(c->material));
     if (c->exemplar > 0)
         json_object_set_new(item, "exemplar", json_integer(c->exemplar));
+    if (c->edit > 0)
+        json_object_set_new(item, "edit", json_integer(c->edit));
+    if (c->redo > 0)
+        json_object_set_new(item, "redo", json_integer(c->redo));
+    if (c->reach > 0.0)
+        json_object_set_new(item, "reach", json_real(c->reach));
     return item;
 }
 

@@ -2,6 +2,7 @@
 #include "api/call.h"
 #include "api/exemplar_handle.h"
 #include "api/heal_call.h"
+#include "api/map_input.h"
 #include "api/mapping_handle.h"
 #include "api/method_settings.h"
 #include "api/saved_about.h"
@@ -13,6 +14,7 @@
 
 #include <assert.h>
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -80,6 +82,10 @@ gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
     otx_tensors_add(out, "uvs", OTX_TENSOR_F32, leaf->corner_count, 2, m->uvs);
     OTX_TRY(otx_saved_lookups_add_reals(run, m, out));
     otx_saved_field_add_reals(m, out);
+    if (m->surface->density)
+        otx_tensors_add(
+            out, "density", OTX_TENSOR_F32, leaf->vert_count, 0,
+            m->surface->density);
     if (m->along)
         otx_tensors_add(
             out, "along", OTX_TENSOR_F32, leaf->vert_count, 0, m->along);
@@ -418,6 +424,28 @@ join_fields(const loader *l, const otx_level *leaf, otx_mapping *out)
     return OSDTEX_OK;
 }
 
+/* The surface with the density that the texture has, if it has one. */
+static otx_status
+join_density(const loader *l, const otx_level *leaf, otx_mapping *out)
+{
+    const float *density =
+        need(l, "density", OTX_TENSOR_F32, leaf->vert_count, 0);
+    otx_surface *surface;
+
+    if (!density)
+        return OSDTEX_OK;
+    for (int32_t v = 0; v < leaf->vert_count; ++v)
+        /* Written so that NaN is damaged too. */
+        if (!(density[v] > 0.0f && density[v] < HUGE_VALF))
+            return damaged(l, "a density is not a positive number");
+    surface = OTX_NEW(l->call->run.arena, otx_surface, 1);
+    OTX_TRY(otx_run_ok(&l->call->run));
+    *surface = *out->surface;
+    surface->density = density;
+    out->surface = surface;
+    return OSDTEX_OK;
+}
+
 static otx_status
 join_arrays(const loader *l, otx_mapping *out)
 {
@@ -446,6 +474,7 @@ join_arrays(const loader *l, otx_mapping *out)
     if (l->about.exemplar_count > 1 && !out->patch_exemplar)
         return damaged(l, "it does not say which exemplar its patches show");
     OTX_TRY(join_shown(l, out));
+    OTX_TRY(join_density(l, leaf, out));
     return join_fields(l, leaf, out);
 }
 
@@ -467,6 +496,9 @@ join(const loader *l)
     m->seed = l->about.seed;
     m->request.scale = l->about.scale;
     m->request.first_face = -1;
+    if (l->about.constraints)
+        OTX_TRY(otx_map_input_parse(
+            run, l->path, l->about.constraints, &m->request.constraints));
     m->saved_path = otx_arena_strdup(run->arena, l->path);
     OTX_TRY(otx_call_hold(run, l->surface->arena));
     OTX_TRY(list_exemplars(l));

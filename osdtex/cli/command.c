@@ -123,6 +123,14 @@ static const otx_flag_id stack_flags[] = {
     OTX_FLAG_DRY_RUN, OTX_FLAG_VERBOSE,      OTX_FLAG_QUIET,
     OTX_FLAG_HELP,    OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
 
+static const otx_flag_id edit_flags[] = {
+    OTX_FLAG_OUTPUT,       OTX_FLAG_CONSTRAINTS, OTX_FLAG_REDO,
+    OTX_FLAG_SEED,         OTX_FLAG_REACH,       OTX_FLAG_PREVIEW,
+    OTX_FLAG_SHOW,         OTX_FLAG_COLORCONFIG, OTX_FLAG_THREADS,
+    OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_REPLACE,     OTX_FLAG_DRY_RUN,
+    OTX_FLAG_VERBOSE,      OTX_FLAG_QUIET,       OTX_FLAG_HELP,
+    OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
+
 static const otx_flag_id tiles_flags[] = {
     OTX_FLAG_OUTPUT,
     OTX_FLAG_MATERIAL,
@@ -278,6 +286,17 @@ static const otx_command commands[] = {
      "    --texels-per-unit 40 --preview-png\n",
      "DIR/NAME.obj: what is written is called after NAME, and beside it",
      bake_flags, otx_bake_command_run, true},
+    {"edit", "MAP.osdtex", 1, 1, "change a saved mapping in a part of it",
+     "Covers again what the constraints of a file hold and reach, or the spot "
+     "that\n--redo names, so that it continues what is around it; everything "
+     "else stays as\nit is to the bit. What was asked for is saved too. "
+     "`osdtex "
+     "map --from` and\n`osdtex bake --from` make models and textures of it.",
+     "osdtex edit pebbles.osdtex --redo 0.2,1.5,0.4,0.1 -o again.osdtex\n"
+     "osdtex edit wood.osdtex --constraints comb.json -o combed.osdtex \\\n"
+     "    --reach 0.5 --preview combed.png\n",
+     "a .osdtex, another one than MAP.osdtex", edit_flags, otx_edit_command_run,
+     true},
     {"render", "MODEL.obj", 1, 1, "take a picture of a textured model",
      "Ray-traces an OBJ with the textures that its MTL names. PNG is for the "
      "eye\n(sRGB), EXR is scene-linear. --show field and --show singularities "

@@ -50,6 +50,7 @@ const char *otx_command_flag_help(const otx_command *command, otx_flag_id flag);
 
 int otx_map_command_run(const otx_flag_values *values);
 int otx_tiles_command_run(const otx_flag_values *values);
+int otx_edit_command_run(const otx_flag_values *values);
 int otx_stack_command_run(const otx_flag_values *values);
 int otx_bake_command_run(const otx_flag_values *values);
 int otx_field_command_run(const otx_flag_values *values);

@@ -83,6 +83,16 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"constraints", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "directions and sizes that the texture is to have at faces of the "
          "cage or at points, and which exemplar: a .json or .csv"},
+    [OTX_FLAG_REDO] =
+        {"redo", 0, OTX_FLAG_GROUP_MAIN, "FACE|X,Y,Z,RADIUS",
+         "not this texture here: cover a face of the cage (0-based), or what "
+         "lies around a point, with another one; --seed N tries others "
+         "(default 1)"},
+    [OTX_FLAG_REACH] =
+        {"reach", 0, OTX_FLAG_GROUP_MAIN, "DIST",
+         "scene units along the surface beyond which an edit changes nothing, "
+         "where a constraint names no reach of its own (default: half the "
+         "exemplar's width)"},
     [OTX_FLAG_FOLLOW] =
         {"follow", 0, OTX_FLAG_GROUP_MAIN, "WHAT",
          "what directions follow where no constraint says otherwise: smooth, "

@@ -28,13 +28,12 @@ is_finite(otx_vec3 v)
     return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
 }
 
-static otx_status
-check(
-    otx_run *run, const otx_constraint_set *set, const otx_connection *c,
+otx_status
+otx_constraint_check(
+    otx_run *run, const otx_constraint_set *set, const otx_cage *cage,
     int32_t index)
 {
     const otx_constraint *item = &set->items[index];
-    const otx_cage *cage = c->surface->cage;
 
     if (item->face >= cage->face_count)
         return otx_fail(
@@ -58,7 +57,20 @@ check(
         return refuse(run, set, index, "has a scale outside 1/16 .. 16");
     if (item->has_material && !(item->material >= 0.0 && item->material <= 1.0))
         return refuse(run, set, index, "has a material outside 0 .. 1");
+    if (!(item->reach >= 0.0) || isinf(item->reach) || item->edit < 0 ||
+        item->redo < 0)
+        return refuse(
+            run, set, index,
+            "has a reach, an edit or a redo that is negative or not finite");
     return OSDTEX_OK;
+}
+
+static otx_status
+check(
+    otx_run *run, const otx_constraint_set *set, const otx_connection *c,
+    int32_t index)
+{
+    return otx_constraint_check(run, set, c->surface->cage, index);
 }
 
 otx_status

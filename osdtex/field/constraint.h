@@ -24,6 +24,12 @@ typedef struct otx_constraint
      * several exemplars read it. */
     int32_t exemplar;
     const char *exemplar_name; /* the same by its file; NULL none */
+    /* Of edits of a mapping, which fields do not read. */
+    int32_t edit; /* with which it is asked, from 1; 0: when it is made */
+    int32_t redo; /* which other texture is to be tried, from 1; 0: says
+                   * nothing */
+    double reach; /* that the edit has along the surface, scene units; 0: a
+                   * suitable one */
 } otx_constraint;
 
 /* What attracts the field where no constraint says otherwise. */
@@ -57,6 +63,12 @@ typedef struct otx_constraint_set
     const otx_constraint *items;
     otx_constraint_field field; /* that the constraints add to */
 } otx_constraint_set;
+
+/* Whether a constraint can be held. ARGUMENT, naming it: a face that is not
+ * there or a hole, what is no finite number or out of its range. */
+otx_status otx_constraint_check(
+    otx_run *run, const otx_constraint_set *set, const otx_cage *cage,
+    int32_t index);
 
 /* Whether a set that is a table has one line for each face of a cage.
  * ARGUMENT, MEMORY. */

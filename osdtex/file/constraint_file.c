@@ -87,6 +87,15 @@ read_exemplar(
 }
 
 static bool
+read_number(const json_t *value, int32_t *out)
+{
+    const json_int_t number = json_integer_value(value);
+
+    *out = (int32_t)number;
+    return json_is_integer(value) && number >= 1 && number <= INT32_MAX;
+}
+
+static bool
 asks_for_exemplar(const otx_constraint_line *line)
 {
     return line->exemplar > 0 || line->exemplar_name;
@@ -99,6 +108,7 @@ read_member(const char *key, const json_t *value, otx_constraint_line *out)
 {
     static const char *const THREE = "is three numbers";
     static const char *const POSITIVE = "is a positive number";
+    static const char *const COUNTED = "is a whole number from 1";
 
     if (strcmp(key, "face") == 0)
         return read_face(value, &out->face) ? NULL
@@ -112,6 +122,12 @@ read_member(const char *key, const json_t *value, otx_constraint_line *out)
     }
     if (strcmp(key, "radius") == 0)
         return read_positive(value, &out->radius) ? NULL : POSITIVE;
+    if (strcmp(key, "reach") == 0)
+        return read_positive(value, &out->reach) ? NULL : POSITIVE;
+    if (strcmp(key, "edit") == 0)
+        return read_number(value, &out->edit) ? NULL : COUNTED;
+    if (strcmp(key, "redo") == 0)
+        return read_number(value, &out->redo) ? NULL : COUNTED;
     if (strcmp(key, "scale") == 0)
         return read_positive(value, &out->scale) ? NULL : POSITIVE;
     if (strcmp(key, "material") == 0)
@@ -124,7 +140,7 @@ read_member(const char *key, const json_t *value, otx_constraint_line *out)
                    : "is a number from 0 to 1";
     }
     return "is not known; there are face, point, radius, direction, scale, "
-           "material and exemplar";
+           "material, exemplar, edit, reach and redo";
 }
 
 /* Whether the members go together. */
@@ -140,10 +156,10 @@ check_item(
             run, path, index, "material",
             "and \"exemplar\" say the same; give one");
     if (!line->has_direction && line->scale == 0.0 && !line->has_material &&
-        !asks_for_exemplar(line))
+        !asks_for_exemplar(line) && line->redo == 0)
         return refuse(
             run, path, index, "direction",
-            "or \"scale\", \"material\" or \"exemplar\" is needed");
+            "or \"scale\", \"material\", \"exemplar\" or \"redo\" is needed");
     return OSDTEX_OK;
 }
 
@@ -253,13 +269,12 @@ drop(void *root)
 }
 
 static otx_status
-read_json(otx_run *run, const otx_text *text, otx_constraint_file *out)
+read_json(
+    otx_run *run, const char *bytes, size_t size, otx_constraint_file *out)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     json_error_t error;
-    json_t *root = json_loadb(
-        text->bytes, (size_t)(text->end - text->bytes), JSON_REJECT_DUPLICATES,
-        &error);
+    json_t *root = json_loadb(bytes, size, JSON_REJECT_DUPLICATES, &error);
 
     if (!root)
         return otx_fail(
@@ -406,7 +421,18 @@ otx_constraint_file_read(
     OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_text_read(run, stage, path, BYTES_MAX, &text));
     status =
-        out->is_table ? read_csv(run, &text, out) : read_json(run, &text, out);
+        out->is_table
+            ? read_csv(run, &text, out)
+            : read_json(run, text.bytes, (size_t)(text.end - text.bytes), out);
     otx_arena_release(run->scratch, mark);
     return status;
+}
+
+otx_status
+otx_constraint_file_parse(
+    otx_run *run, const char *path, const char *json, otx_constraint_file *out)
+{
+    *out = (otx_constraint_file){.path = otx_arena_strdup(run->arena, path)};
+    OTX_TRY(otx_run_ok(run));
+    return read_json(run, json, strlen(json), out);
 }

@@ -20,6 +20,8 @@ typedef struct otx_constraint_line
     double material;
     int32_t exemplar;          /* from 1; 0 says nothing */
     const char *exemplar_name; /* NULL none; at most one of the two */
+    double reach;              /* 0 says nothing, as the two below */
+    int32_t edit, redo;
 } otx_constraint_line;
 
 typedef struct otx_constraint_file
@@ -38,5 +40,9 @@ typedef struct otx_constraint_file
  * naming line or constraint; LIMIT past 64 MiB, IO, MEMORY. */
 otx_status otx_constraint_file_read(
     otx_run *run, const char *path, otx_constraint_file *out);
+
+/* The same of JSON text that `path` holds somewhere. */
+otx_status otx_constraint_file_parse(
+    otx_run *run, const char *path, const char *json, otx_constraint_file *out);
 
 #endif

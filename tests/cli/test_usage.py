@@ -7,7 +7,7 @@ from program import CAGES, EXEMPLARS, ProgramTest, main
 
 CAGE = CAGES / "sphere.obj"
 EXEMPLAR = EXEMPLARS / "gravel_tile.png"
-COMMANDS = ("map", "tiles", "stack", "bake", "render", "field", "regress", "plan",
+COMMANDS = ("map", "tiles", "stack", "edit", "bake", "render", "field", "regress", "plan",
             "run", "info", "methods", "help")
 
 

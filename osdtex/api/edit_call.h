@@ -1,0 +1,19 @@
+/* edit_call.h -- edits of mappings: constraints that act on an area alone. */
+#ifndef OTX_API_EDIT_CALL_H
+#define OTX_API_EDIT_CALL_H
+
+#include "api/handle.h"
+
+/* The constraints of a set that are asked for when a mapping is made, without
+ * those of edits. `*out` is `set` itself where it has none. MEMORY. */
+otx_status otx_edit_call_base(
+    otx_run *run, const otx_constraint_set *set,
+    const otx_constraint_set **out);
+
+/* Applies the edits of `set` from number `first` on to handle->mapping, one
+ * after the other, and keeps the set as what was asked for. */
+otx_status otx_edit_call_apply(
+    otx_run *run, const otx_constraint_set *set, int32_t first,
+    osdtex_mapping *handle);
+
+#endif

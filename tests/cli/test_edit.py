@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""osdtex edit: what changes, what does not, and that a mapping with edits is
+made again from its constraints.
+
+    test_edit.py OSDTEX
+"""
+
+import array
+import json
+import unittest
+
+from program import CAGES, EXEMPLARS, ProgramTest, main
+
+CAGE = CAGES / "torus.obj"
+EXEMPLAR = EXEMPLARS / "grass_tile.png"
+HOW = ("--level", "2", "--scale", "1.5", "--exemplar-class", "directional")
+TYPES = {"F64": "d", "I64": "q", "F32": "f", "I32": "i", "U8": "B"}
+
+
+def read(path):
+    data = path.read_bytes()
+    begin = 8 + int.from_bytes(data[:8], "little")
+    header = json.loads(data[8:begin])
+    about = json.loads(header.pop("__metadata__")["osdtex"])
+    arrays = {}
+    for name, a in header.items():
+        arrays[name] = array.array(TYPES[a["dtype"]])
+        first, end = a["data_offsets"]
+        arrays[name].frombytes(data[begin + first:begin + end])
+    return about, arrays
+
+
+def changed(a, b):
+    """Faces that show something else."""
+    first = a["face_first"]
+    return {f for f in range(len(first) - 1)
+            if a["face_patch"][f] != b["face_patch"][f] or
+            a["uvs"][2 * first[f]:2 * first[f + 1]] !=
+            b["uvs"][2 * first[f]:2 * first[f + 1]]}
+
+
+class Edit(ProgramTest):
+    def save(self, *more, name="m.osdtex"):
+        path = self.folder / name
+        self.assert_exit(self.run_map(
+            CAGE, EXEMPLAR, *HOW, "--save", path, "--replace", *more), 0)
+        return path
+
+    def edit(self, source, *more, name="n.osdtex"):
+        result = self.run_program(
+            "edit", source, "-o", self.folder / name, *more)
+        self.assert_exit(result, 0)
+        return self.folder / name
+
+    def constraints(self, *items, name="c.json"):
+        path = self.folder / name
+        path.write_text(json.dumps({"constraints": items}))
+        return path
+
+    def test_redo_changes_the_spot_and_nothing_else(self):
+        source = self.save()
+        _, before = read(source)
+        made = self.edit(source, "--redo", "9", "--reach", "0.2")
+        about, after = read(made)
+        faces = changed(before, after)
+        self.assertGreater(len(faces), 4)
+        self.assertLess(len(faces), len(before["face_patch"]) / 3)
+        self.assertEqual(before["guide"], after["guide"])
+        self.assertEqual(about["constraints"]["constraints"],
+                         [{"face": 9, "edit": 1, "reach": 0.2, "redo": 1}])
+        again = self.edit(source, "--redo", "9", "--reach", "0.2",
+                          "--threads", "1", name="again.osdtex")
+        self.assertEqual(self.picture(made.name), self.picture(again.name))
+        other = self.edit(source, "--redo", "9", "--reach", "0.2", "--seed",
+                          "2", name="other.osdtex")
+        self.assertTrue(changed(after, read(other)[1]))
+
+    def test_edits_one_by_one_are_those_of_one_file(self):
+        """What a person does bit by bit, `osdtex map --constraints` makes at
+        once, byte for byte."""
+        comb = {"face": 3, "direction": [0, 1, 0.2], "reach": 0.4}
+        size = {"point": [1, 0, 0], "radius": 0.2, "scale": 1.5, "reach": 0.5}
+        one = self.edit(self.save(), "--constraints", self.constraints(comb),
+                        name="one.osdtex")
+        two = self.edit(one, "--constraints", self.constraints(size),
+                        name="two.osdtex")
+        at_once = self.save(
+            "--constraints", self.constraints({**comb, "edit": 1},
+                                              {**size, "edit": 2}))
+        a, b = read(two), read(at_once)
+        self.assertEqual(a[1], b[1])
+        self.assertEqual(a[0]["constraints"], b[0]["constraints"])
+
+    def test_what_is_wrong_is_said(self):
+        source = self.save()
+        new = self.folder / "n.osdtex"
+        for more, words in (
+                ((), "--redo"),
+                (("--redo", "1,2"), "--redo takes"),
+                (("--redo", "1", "--reach", "-1"), "--reach takes")):
+            with self.subTest(more):
+                self.assert_error(self.run_program(
+                    "edit", source, "-o", new, *more), 1, words)
+        self.assert_error(self.run_program(
+            "edit", source, "-o", new, "--redo", "99999"), 1, "cage lacks")
+        self.assert_error(self.run_program(
+            "edit", source, "-o", source, "--redo", "1"), 1, "m.osdtex")
+        self.assert_error(self.run_program(
+            "edit", CAGE, "-o", new, "--redo", "1"), 1, "saved mapping")
+        self.assertFalse(new.exists())
+
+
+if __name__ == "__main__":
+    main()
