@@ -388,7 +388,7 @@ load(loader *l)
     choose_wrapping(l);
     l->scene->textures = l->textures;
     l->scene->texture_count = l->texture_count;
-    return otx_model_maps_read(l->call, l->maps, l->scene);
+    return otx_model_maps_read(l->call, l->maps, l->scene, &l->scene->maps);
 }
 
 static otx_status

@@ -93,7 +93,8 @@ read_set(
 
 otx_status
 otx_model_maps_read(
-    otx_call *call, const otx_data_maps *paths, otx_scene *scene)
+    otx_call *call, const otx_data_maps *paths, const otx_scene *scene,
+    const otx_map_textures **out)
 {
     otx_run *run = &call->run;
     const int32_t count = scene->texture_count;
@@ -111,7 +112,6 @@ otx_model_maps_read(
     }
     OTX_TRY(
         otx_map_textures_gather(run, sets, count, OTX_MAP_TEXTURES_ALL, maps));
-    if (maps->channels > 0)
-        scene->maps = maps;
+    *out = maps->channels > 0 ? maps : NULL;
     return OSDTEX_OK;
 }

@@ -7,14 +7,15 @@
 #include "file/data_maps.h"
 #include "render/scene.h"
 
-/* Reads the maps of the textures of a scene, whose `maps` are set where there
- * is one; they are told in the frame of the UVs. A map that is not there, or
- * does not lie on its texture, is a warning and left out.
+/* Reads the maps of the textures of a scene, told in the frame of the UVs: NULL
+ * in *out where there is none. A map that is not there, or does not lie on its
+ * texture, is a warning and left out.
  *
  *   paths  [scene->texture_count] of files; their <UDIM> is resolved
  *
  * MEMORY, CANCELLED, LIMIT. */
 otx_status otx_model_maps_read(
-    otx_call *call, const otx_data_maps *paths, otx_scene *scene);
+    otx_call *call, const otx_data_maps *paths, const otx_scene *scene,
+    const otx_map_textures **out);
 
 #endif

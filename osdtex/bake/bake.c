@@ -112,8 +112,8 @@ make_block(job *j, int32_t i, otx_worker *worker)
     for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
     {
         block.maps[k] = planes[k];
-        block.map_strides[k] =
-            block.width * otx_companion_channels((otx_companion_kind)k);
+        block.map_strides[k] = (ptrdiff_t)block.width *
+                               otx_companion_channels((otx_companion_kind)k);
     }
     j->sink->take(j->sink->user, j->next.slot + i, worker->index, &block);
     return OSDTEX_OK;
