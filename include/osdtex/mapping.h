@@ -127,6 +127,14 @@ typedef struct osdtex_map_options
      * and with a minus before it the other way round. NULL: "y". Of other
      * exemplars it says nothing. */
     const char *along;
+    /* A mapping of the same faces in another shape, that is to be kept: leaves
+     * whose shape has hardly changed show what they did, to the bit, others
+     * are relaxed between them, or covered anew where they are stretched too
+     * far. It decides method, settings, scale and level. One that was read for
+     * the changed cage (osdtex_mapping_read_options.cage) knows the shape that
+     * it was saved with. What was asked of it by constraints is not asked
+     * again. NULL none. */
+    const struct osdtex_mapping *keep;
 } osdtex_map_options;
 
 static inline osdtex_map_options

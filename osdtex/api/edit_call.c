@@ -60,9 +60,8 @@ otx_edit_call_base(
     return OSDTEX_OK;
 }
 
-/* A set that shares nothing with the one it is made from, with room. */
-static otx_status
-copy_set(
+otx_status
+otx_edit_call_copy(
     otx_run *run, const otx_constraint_set *from, int32_t room,
     otx_constraint_set **out, otx_constraint **items)
 {
@@ -95,7 +94,7 @@ join_sets(
     const int32_t last = last_edit(had);
     otx_constraint *items;
 
-    OTX_TRY(copy_set(run, had, asked->count, out, &items));
+    OTX_TRY(otx_edit_call_copy(run, had, asked->count, out, &items));
     if (!had)
     {
         (*out)->symmetry = asked->symmetry;

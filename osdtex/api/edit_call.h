@@ -10,6 +10,17 @@ otx_status otx_edit_call_base(
     otx_run *run, const otx_constraint_set *set,
     const otx_constraint_set **out);
 
+/* A set that shares nothing with the one that it is made from, in run->arena.
+ *
+ *   from   NULL: an empty one
+ *   room   for so many constraints more
+ *   items  out: its constraints
+ *
+ * MEMORY. */
+otx_status otx_edit_call_copy(
+    otx_run *run, const otx_constraint_set *from, int32_t room,
+    otx_constraint_set **out, otx_constraint **items);
+
 /* Applies the edits of `set` from number `first` on to handle->mapping, one
  * after the other, and keeps the set as what was asked for. */
 otx_status otx_edit_call_apply(

@@ -74,6 +74,9 @@ struct osdtex_mapping
     uint64_t seed;
     const char *saved_path; /* the file that it was read from; NULL: it was
                              * made here, and `figures` say how */
+    /* [vert_count * 3] of the cage: the points that it was made for, where its
+     * surface has others; NULL: it has these. */
+    const float *made_for;
     /* Of an edited mapping: that of the mapping which the edits began with, and
      * which holds exemplars and settings; NULL: its own does. */
     otx_arena *base;

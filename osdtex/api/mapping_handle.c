@@ -3,6 +3,7 @@
 #include "api/call.h"
 #include "api/edit_call.h"
 #include "api/heal_call.h"
+#include "api/keep_call.h"
 #include "api/map_input.h"
 #include "api/map_resolve.h"
 #include "api/material_axis.h"
@@ -87,6 +88,24 @@ choose_surface(
     return status;
 }
 
+/* The mapping itself, with all that is settled in the handle. */
+static otx_status
+lay(otx_run *run, const osdtex_map_options *options,
+    const otx_constraint_set *asked, osdtex_mapping *handle)
+{
+    const otx_job job = job_of(run, handle);
+
+    if (options->keep)
+        OTX_TRY(otx_keep_call_run(run, options->keep, handle));
+    else
+    {
+        OTX_TRY(otx_method_map(handle->method, &job, &handle->mapping));
+        OTX_TRY(otx_material_axis_take(run, options->along, handle));
+    }
+    OTX_TRY(otx_edit_call_apply(run, asked, 1, handle));
+    return otx_heal_call(run, options->heal, handle);
+}
+
 static otx_status
 map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
     const osdtex_map_options *options, osdtex_mapping **out)
@@ -96,10 +115,11 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
     osdtex_map_options ours = osdtex_map_options_default();
     const otx_constraint_set *asked;
     osdtex_mapping *handle = OTX_ZNEW(run->arena, osdtex_mapping, 1);
-    otx_job job;
 
     OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_call_options(run, &ours, sizeof ours, options));
+    if (ours.keep)
+        OTX_TRY(otx_keep_call_options(run, ours.keep, &ours));
     if (!exemplar || (ours.setting_count > 0 && !ours.settings) ||
         ours.setting_count < 0)
         return otx_fail(
@@ -125,11 +145,7 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
         run, handle->method, ours.settings, ours.setting_count,
         &exemplar->exemplar, &surface->cage->cage, &handle->settings));
     run->seed = ours.seed;
-    job = job_of(run, handle);
-    OTX_TRY(otx_method_map(handle->method, &job, &handle->mapping));
-    OTX_TRY(otx_material_axis_take(run, ours.along, handle));
-    OTX_TRY(otx_edit_call_apply(run, asked, 1, handle));
-    OTX_TRY(otx_heal_call(run, ours.heal, handle));
+    OTX_TRY(lay(run, &ours, asked, handle));
     handle->info = otx_mapping_handle_info(handle);
     *out = handle;
     return OSDTEX_OK;

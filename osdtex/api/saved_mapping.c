@@ -192,22 +192,40 @@ find_file(otx_run *run, const char *path, const char *named, const char **out)
     return OSDTEX_OK;
 }
 
-/* Rest positions may differ: UVs go with the faces. */
-static void
+/* Rest positions may differ: UVs go with the faces, and the mapping remembers
+ * what it was made for. */
+static otx_status
 compare_points(const loader *l)
 {
     const otx_cage *cage = &l->cage->cage;
+    const size_t count = 3 * (size_t)cage->vert_count;
     const otx_tensor *points = otx_tensors_find(
         l->tensors, "cage_points", OTX_TENSOR_F32, cage->vert_count, 3);
+    const otx_tensor *origin =
+        otx_tensors_find(l->tensors, "cage_origin", OTX_TENSOR_F64, 3, 0);
+    const float *from = points ? points->data : NULL;
+    float *made_for;
 
-    if (points && memcmp(
-                      points->data, cage->points,
-                      3 * sizeof(float) * (size_t)cage->vert_count) != 0)
-        otx_note(
-            &l->call->run, OSDTEX_SEVERITY_INFO, STAGE,
-            otx_where_file(l->cage->info.path),
-            "the cage has the faces that were mapped in another pose; the "
-            "texture goes with them");
+    if (!from || memcmp(from, cage->points, count * sizeof *from) == 0)
+        return OSDTEX_OK;
+    made_for = OTX_NEW(l->call->run.arena, float, count);
+    OTX_TRY(otx_run_ok(&l->call->run));
+    for (size_t i = 0; i < count; ++i)
+    {
+        const double *shift = origin ? origin->data : cage->origin;
+
+        if (!isfinite(from[i]))
+            return damaged(l, "a point of its cage is not finite");
+        made_for[i] =
+            (float)((double)from[i] + shift[i % 3] - cage->origin[i % 3]);
+    }
+    l->mapping->made_for = made_for;
+    otx_note(
+        &l->call->run, OSDTEX_SEVERITY_INFO, STAGE,
+        otx_where_file(l->cage->info.path),
+        "the cage has the faces that were mapped in another pose; the texture "
+        "goes with them");
+    return OSDTEX_OK;
 }
 
 /* A pipe that a file names is waited for in vain. */
@@ -253,7 +271,7 @@ read_cage(loader *l)
             &l->call->run, OSDTEX_ERROR_ARGUMENT, STAGE, otx_where_file(path),
             "the cage has other faces than the one that was mapped; map it "
             "anew, or give the one that the mapping was made for");
-    compare_points(l);
+    OTX_TRY(compare_points(l));
     OTX_TRY(check_level(l));
     level.level = l->about.level;
     return osdtex_surface_refine(context, l->cage, &level, &l->surface);

@@ -83,6 +83,12 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"constraints", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "directions and sizes that the texture is to have at faces of the "
          "cage or at points, and which exemplar: a .json or .csv"},
+    [OTX_FLAG_KEEP] =
+        {"keep", 0, OTX_FLAG_GROUP_MAIN, "OLD.osdtex",
+         "a saved mapping of the same faces before they were moved: what has "
+         "not changed shows what it did, what has is relaxed, or covered anew "
+         "where it would be stretched too far; method, settings, scale "
+         "and level are those of OLD"},
     [OTX_FLAG_REDO] =
         {"redo", 0, OTX_FLAG_GROUP_MAIN, "FACE|X,Y,Z,RADIUS",
          "not this texture here: cover a face of the cage (0-based), or what "

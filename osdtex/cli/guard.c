@@ -62,12 +62,12 @@ otx_guard_named(
     otx_path_list *out)
 {
     static const otx_flag_id files[] = {
-        OTX_FLAG_MASK, OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOR};
+        OTX_FLAG_MASK, OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOR, OTX_FLAG_KEEP};
     osdtex_status status = OSDTEX_OK;
 
     for (int i = 0; i < values->operand_count && status == OSDTEX_OK; ++i)
         status = add_file(context, deep, out, values->operands[i]);
-    for (int i = 0; i < 3 && status == OSDTEX_OK; ++i)
+    for (int i = 0; i < 4 && status == OSDTEX_OK; ++i)
         status = add_file(context, deep, out, values->text[files[i]]);
     for (int i = 0; i < values->also_count && status == OSDTEX_OK; ++i)
     {

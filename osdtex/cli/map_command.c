@@ -20,6 +20,7 @@ typedef struct job
     osdtex_exemplar *exemplar;
     osdtex_forecast forecast;
     osdtex_surface *surface;
+    osdtex_mapping *keep; /* of --keep */
     osdtex_mapping *mapping;
     osdtex_image *picture;
 } job;
@@ -44,6 +45,33 @@ read_inputs(otx_session *session, job *j)
     r->map_options.also_count = r->also.count;
     otx_session_lap(session, "inputs read");
     return status;
+}
+
+/* The mapping of --keep, on the cage as it is now, and what it decides. */
+static osdtex_status
+read_kept(otx_session *session, job *j)
+{
+    osdtex_mapping_read_options options = osdtex_mapping_read_options_default();
+    otx_map_flags *r = &j->request;
+    const char *path = r->values->text[OTX_FLAG_KEEP];
+    osdtex_status status;
+
+    if (!path)
+        return OSDTEX_OK;
+    options.cage = r->values->operands[0];
+    status = osdtex_mapping_read(session->context, path, &options, &j->keep);
+    otx_session_lap(session, "old mapping read");
+    if (status != OSDTEX_OK)
+        return status;
+    r->map_options.keep = j->keep;
+    if (!r->map_options.method)
+        r->map_options.method = osdtex_mapping_describe(j->keep)->method;
+    if (r->map_options.scale == 0.0)
+        r->map_options.scale = osdtex_mapping_describe(j->keep)->scale;
+    if (!r->values->text[OTX_FLAG_LEVEL])
+        r->surface_options.level =
+            osdtex_surface_describe(osdtex_mapping_surface(j->keep))->level;
+    return OSDTEX_OK;
 }
 
 /* What is wrong is said before it costs anything. */
@@ -276,6 +304,8 @@ texture(otx_session *session, job *j)
         is_saved ? read_saved(session, j) : read_inputs(session, j);
 
     if (status == OSDTEX_OK && !is_saved)
+        status = read_kept(session, j);
+    if (status == OSDTEX_OK && !is_saved)
         status = look_ahead(session, j);
     if (status == OSDTEX_OK && j->request.values->text[OTX_FLAG_DRY_RUN])
     {
@@ -302,6 +332,7 @@ clean_up(job *j)
 {
     osdtex_image_destroy(j->picture);
     osdtex_mapping_destroy(j->mapping);
+    osdtex_mapping_destroy(j->keep);
     osdtex_surface_destroy(j->surface);
     otx_also_flags_destroy(&j->request.also);
     otx_material_flags_destroy(&j->request.material);

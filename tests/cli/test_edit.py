@@ -91,6 +91,48 @@ class Edit(ProgramTest):
         self.assertEqual(a[1], b[1])
         self.assertEqual(a[0]["constraints"], b[0]["constraints"])
 
+    def moved(self, by):
+        """The cage with its first vertex elsewhere."""
+        lines = CAGE.read_text().splitlines()
+        first = next(i for i, l in enumerate(lines) if l.startswith("v "))
+        x, y, z = map(float, lines[first].split()[1:4])
+        lines[first] = f"v {x + by} {y} {z}"
+        path = self.folder / "moved.obj"
+        path.write_text("\n".join(lines) + "\n")
+        return path
+
+    def test_keep_through_a_moved_vertex(self):
+        source = self.save()
+        made = self.folder / "kept.osdtex"
+        for by in (0.01, 0.4):
+            cage = self.moved(by)
+            self.assert_exit(self.run_map(
+                cage, EXEMPLAR, "--keep", source, "--save", made, "--replace",
+                "--json-report", self.folder / "r.json"), 0)
+            before, after = read(source)[1], read(made)[1]
+            faces = changed(before, after)
+            self.assertLess(len(faces), len(before["face_patch"]) / 3)
+            kept = json.loads(
+                (self.folder / "r.json").read_text())["mapping"]["kept"]
+            self.assertLessEqual(
+                len(faces), kept["moved"] + kept["covered"])
+            self.assertEqual(
+                sum(kept.values()), len(before["face_patch"]))
+        self.assertGreater(len(faces), 0)
+
+    def test_what_cannot_be_kept_is_said(self):
+        source = self.save()
+        for more, words in (
+                (("--keep", source, "--scale", "3"), "has the scale"),
+                (("--keep", source, "--follow", "up"), "edit what comes"),
+                (("--keep", source, "--level", "1"), "is of level")):
+            with self.subTest(more):
+                self.assert_error(
+                    self.run_map(CAGE, EXEMPLAR, *more), 1, words)
+        self.assert_error(
+            self.run_map(CAGES / "sphere.obj", EXEMPLAR, "--keep", source,
+                         name="other.obj"), 1, "other faces")
+
     def test_what_is_wrong_is_said(self):
         source = self.save()
         new = self.folder / "n.osdtex"

@@ -192,7 +192,7 @@ otx_refill_run(otx_material *m, otx_mapping *out)
     otx_guide guide;
 
     OTX_TRY(otx_guide_from_field(
-        m->job->run, &m->solved.field,
+        job.run, &m->solved.field,
         m->analysis.angle - m->settings->turn * OTX_PI / 180.0, &guide));
     request.guide = &guide;
     request.first_face = -1;
