@@ -78,7 +78,10 @@ typedef struct osdtex_context_options
      * Opened when the first colour is met. */
     const char *colorconfig;
     int32_t threads; /* 0: the cores of the machine */
-    int32_t reserved;
+    int32_t argument_count;
+    /* [argument_count] words that the host was run with, which reports tell.
+     * Copied. NULL none. */
+    const char *const *arguments;
 } osdtex_context_options;
 
 static inline osdtex_context_options
@@ -95,11 +98,11 @@ osdtex_context_options_init(osdtex_context_options *out, size_t bytes);
 
 /* Starts the threads; reads nothing yet.
  *
- *   options  NULL: the defaults. Copied, `colorconfig` too; what a `user`
+ *   options  NULL: the defaults. Copied, texts too; what a `user`
  * points to is the host's
  *
- * ARGUMENT (threads below 0 or above 256), MEMORY; there is no context then to
- * ask for a sentence. */
+ * ARGUMENT (threads below 0 or above 256, a count below 0), MEMORY; there is no
+ * context then to ask for a sentence. */
 OSDTEX_API osdtex_status osdtex_context_create(
     const osdtex_context_options *options, osdtex_context **out);
 /* Ends the threads. Handles that were made with it live on. NULL: nothing. */

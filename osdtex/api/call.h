@@ -40,6 +40,7 @@ struct osdtex_context
     const char *stage;
     double fraction;
     otx_mark mark; /* of what is written into the set */
+    double begun;  /* seconds of the clock */
     int32_t time_count;
     otx_call_time times[OTX_CALL_TIMES_MAX];
 };

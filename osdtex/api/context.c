@@ -1,6 +1,7 @@
 /* context.c -- the context, its findings, and what needs no context. */
 #include "api/call.h"
 #include "base/build.h"
+#include "base/clock.h"
 #include "base/hash.h"
 
 #include <stdlib.h>
@@ -43,6 +44,25 @@ osdtex_hash(const void *data, size_t bytes, char text[OSDTEX_HASH_BYTES])
     otx_hash_text(data, bytes, text);
 }
 
+/* A copy of the words that the host was run with; false when memory is out. */
+static bool
+copy_arguments(osdtex_context *context)
+{
+    osdtex_context_options *options = &context->options;
+    const int32_t count = options->arguments ? options->argument_count : 0;
+    const char **words = OTX_NEW(context->arena, const char *, count);
+
+    for (int32_t i = 0; words && i < count; ++i)
+    {
+        words[i] = otx_arena_strdup(context->arena, options->arguments[i]);
+        if (!words[i])
+            return false;
+    }
+    options->arguments = words;
+    options->argument_count = count;
+    return words != NULL;
+}
+
 /* Makes what `context` is missing; false when memory is out. */
 static bool
 furnish(osdtex_context *context)
@@ -61,6 +81,9 @@ furnish(osdtex_context *context)
     context->diagnostics = otx_diagnostics_create(context->allocator);
     if (!context->arena || !context->scratch || !context->pool ||
         !context->diagnostics)
+        return false;
+    context->begun = otx_clock_now();
+    if (!copy_arguments(context))
         return false;
     if (options->colorconfig)
     {
@@ -91,7 +114,7 @@ osdtex_context_create(
         return OSDTEX_ERROR_ARGUMENT;
     OTX_TRY(otx_call_options(NULL, &ours, sizeof ours, options));
     if (ours.threads < 0 || ours.threads > MAX_THREADS ||
-        !ours.alloc != !ours.release)
+        ours.argument_count < 0 || !ours.alloc != !ours.release)
         return OSDTEX_ERROR_ARGUMENT;
     context = calloc(1, sizeof *context);
     if (!context)

@@ -4,6 +4,7 @@
 #include "api/handle.h"
 #include "base/random.h"
 #include "colour/embedding.h"
+#include "file/atomic_file.h"
 #include "file/exr.h"
 #include "file/picture.h"
 #include "file/png_file.h"
@@ -249,6 +250,7 @@ write_image(otx_call *call, const osdtex_image *image, const char *path)
     }
     else
         OTX_TRY(write_exr(run, set, path, colour, linear, &pixels));
+    otx_atomic_file_describe(set, path, "picture");
     return otx_atomic_file_commit(run, set, false);
 }
 

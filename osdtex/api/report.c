@@ -5,6 +5,7 @@
 #include "api/report.h"
 #include "api/field_report.h"
 #include "api/handle.h"
+#include "api/report_handover.h"
 #include "api/tile_report.h"
 #include "base/hash.h"
 #include "mapping/measure.h"
@@ -447,6 +448,7 @@ otx_report_build(
         json_decref(root);
         return otx_fail_memory(run, "report");
     }
+    set_int(root, "schema", OTX_REPORT_SCHEMA);
     set_text(root, "version", osdtex_version());
     set_text(root, "build", osdtex_build());
     otx_mark_print(run->mark, mark);
@@ -463,6 +465,7 @@ otx_report_build(
     put_exemplars(root, mapping, &measure);
     put_cost(root, context, mapping);
     put_diagnostics(root, context);
+    OTX_TRY(otx_report_handover(call, mapping, &measure, root));
     *out = root;
     return OSDTEX_OK;
 }

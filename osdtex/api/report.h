@@ -6,6 +6,13 @@
 
 #include <jansson.h>
 
+enum
+{
+    /* Of the keys: raised when one is taken away or means something else, not
+     * when there are more. docs/report.schema.json describes this one. */
+    OTX_REPORT_SCHEMA = 1
+};
+
 /* All of docs/report.md. It lives as long as the arena of the call.
  *
  *   windows  that are looked up in the exemplar, see osdtex_report_options

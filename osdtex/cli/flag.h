@@ -142,6 +142,7 @@ enum
     OTX_FLAG_SPOOLS_MAX = 8,
     OTX_FLAG_OPERANDS_MAX = 8,
     OTX_FLAG_EDGES_MAX = 8,
+    OTX_FLAG_WORDS_MAX = 256,
     OTX_FLAG_ALSO_MAX = 8,
     OTX_FLAG_SET_FILES =
         OSDTEX_MAP_KINDS + 1 /* of a material, its colour too */
@@ -192,7 +193,9 @@ typedef struct otx_flag_values
     int also_count;
     const char *operands[OTX_FLAG_OPERANDS_MAX];
     int operand_count;
-    const otx_flag_id *ids; /* the flags of the command */
+    const otx_flag_id *ids;                /* the flags of the command */
+    const char *words[OTX_FLAG_WORDS_MAX]; /* as they were given */
+    int word_count;
     const char *job; /* file of the job that this is a task of; NULL none */
     otx_flag_inputs inputs;
 } otx_flag_values;

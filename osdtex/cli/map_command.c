@@ -171,12 +171,13 @@ write_outputs(otx_session *session, const job *j)
     if (status == OSDTEX_OK && j->picture)
         status = osdtex_image_write(
             session->context, j->picture, j->request.preview);
-    if (status == OSDTEX_OK && j->request.report)
-        status = osdtex_report_write(
-            session->context, j->mapping, j->request.report);
     if (status == OSDTEX_OK && j->request.save)
         status =
             osdtex_mapping_save(session->context, j->mapping, j->request.save);
+    /* Last, since it lists what the job wrote. */
+    if (status == OSDTEX_OK && j->request.report)
+        status = osdtex_report_write(
+            session->context, j->mapping, j->request.report);
     return status;
 }
 

@@ -236,6 +236,8 @@ otx_session_begin(otx_session *session, const otx_flag_values *values)
     options.log = put_finding;
     options.log_user = session;
     options.colorconfig = values->text[OTX_FLAG_COLORCONFIG];
+    options.arguments = values->words;
+    options.argument_count = values->word_count;
     session->options = options;
     otx_stop_listen();
     status = osdtex_context_create(&options, &session->context);

@@ -28,9 +28,10 @@ typedef struct entry
     struct entry *next;
     const char *path;
     const char *temporary;
-    const char *old; /* what `path` was before the commit; NULL none */
-    bool existed;    /* `path` did, when the temporary was made */
-    bool finished;   /* its writer says so */
+    const char *role; /* a literal; NULL: nobody said */
+    const char *old;  /* what `path` was before the commit; NULL none */
+    bool existed;     /* `path` did, when the temporary was made */
+    bool finished;    /* its writer says so */
     bool sealed;
     bool renamed;
 } entry;
@@ -323,6 +324,28 @@ otx_atomic_file_seal(otx_run *run, otx_atomic_file_set *set)
         e->sealed = true;
     }
     return OSDTEX_OK;
+}
+
+void
+otx_atomic_file_describe(
+    otx_atomic_file_set *set, const char *path, const char *role)
+{
+    for (entry *e = set->first; e; e = e->next)
+        if (strcmp(e->path, path) == 0)
+            e->role = role;
+}
+
+bool
+otx_atomic_file_at(
+    const otx_atomic_file_set *set, int32_t index, otx_atomic_file_entry *out)
+{
+    for (const entry *e = set->first; e; e = e->next)
+        if (e->finished && index-- == 0)
+        {
+            *out = (otx_atomic_file_entry){e->path, e->temporary, e->role};
+            return true;
+        }
+    return false;
 }
 
 otx_status

@@ -45,6 +45,23 @@ otx_atomic_file_commit(otx_run *run, otx_atomic_file_set *set, bool durable);
  * waits until the disk has them: what takes time of publishing. */
 otx_status otx_atomic_file_seal(otx_run *run, otx_atomic_file_set *set);
 
+/* Says what a file of the set is for, where its name does not: a literal. */
+void otx_atomic_file_describe(
+    otx_atomic_file_set *set, const char *path, const char *role);
+
+/* A finished file of a set, lent. */
+typedef struct otx_atomic_file_entry
+{
+    const char *path;      /* what it will be called */
+    const char *temporary; /* where it is until then */
+    const char *role;      /* NULL: nobody said */
+} otx_atomic_file_entry;
+
+/* The finished file number `index`, in the order they were added; false beyond
+ * the last. */
+bool otx_atomic_file_at(
+    const otx_atomic_file_set *set, int32_t index, otx_atomic_file_entry *out);
+
 /* Renames the finished files of a shared set and removes the others, as
  * `commit` does of a set of its own. */
 otx_status otx_atomic_file_publish(otx_run *run, otx_atomic_file_set *set);

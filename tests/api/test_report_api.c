@@ -143,6 +143,42 @@ figures_are_the_numbers_of_the_text(void **state)
     osdtex_context_destroy(context);
 }
 
+/* What the host was run with is told; it is the context's own copy. */
+static void
+words_of_the_host_are_told(void **state)
+{
+    char word[] = "paint";
+    const char *words[] = {word, "shirt.obj"};
+    osdtex_context_options how = osdtex_context_options_default();
+    osdtex_context *context;
+    osdtex_mapping *mapping;
+    osdtex_report *report;
+    json_t *root, *told;
+
+    (void)state;
+    how.threads = 1;
+    how.arguments = words;
+    how.argument_count = -1;
+    assert_int_equal(
+        osdtex_context_create(&how, &context), OSDTEX_ERROR_ARGUMENT);
+    how.argument_count = 2;
+    assert_int_equal(osdtex_context_create(&how, &context), OSDTEX_OK);
+    word[0] = 'f';
+    words[1] = NULL;
+    assert_int_equal(
+        map_plane(context, GRAVEL, NULL, false, &mapping), OSDTEX_OK);
+    report = report_on(context, mapping);
+    root = json_loads(osdtex_report_describe(report)->json, 0, NULL);
+    told = find(root, "process.arguments");
+    assert_int_equal(json_array_size(told), 2);
+    assert_string_equal(json_string_value(json_array_get(told, 0)), "paint");
+    assert_int_equal(json_array_size(json_object_get(root, "outputs")), 0);
+    json_decref(root);
+    osdtex_report_destroy(report);
+    osdtex_mapping_destroy(mapping);
+    osdtex_context_destroy(context);
+}
+
 /* Whoever adds a figure says what it is, in api/report_words.c. */
 static void
 assert_words(osdtex_context *context, const osdtex_mapping *mapping)
@@ -218,6 +254,7 @@ drop_costs(json_t *root)
 {
     json_object_del(root, "seconds");
     json_object_del(root, "memory");
+    json_object_del(root, "process");
     json_object_del(json_object_get(root, "options"), "threads");
 }
 
@@ -343,6 +380,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(figures_are_the_numbers_of_the_text),
+        cmocka_unit_test(words_of_the_host_are_told),
         cmocka_unit_test(every_figure_of_every_method_has_words),
         cmocka_unit_test(threads_make_no_difference),
         cmocka_unit_test(the_file_holds_the_same_text),

@@ -155,6 +155,7 @@ a_shared_set_appears_at_its_end(void **state)
     fixture *f = *state;
     otx_run *run = f->run;
     otx_atomic_file_set *shared, *set;
+    otx_atomic_file_entry entry;
     const char *temporary;
 
     assert_int_equal(
@@ -165,8 +166,15 @@ a_shared_set_appears_at_its_end(void **state)
     assert_int_equal(
         otx_atomic_file_add(run, set, f->a, &temporary), OSDTEX_OK);
     test_put(temporary, "new a");
+    assert_false(otx_atomic_file_at(set, 0, &entry)); /* not finished */
+    otx_atomic_file_describe(set, f->a, "picture");
     assert_int_equal(otx_atomic_file_commit(run, set, true), OSDTEX_OK);
     assert_int_not_equal(access(f->a, F_OK), 0);
+    assert_true(otx_atomic_file_at(set, 0, &entry));
+    assert_string_equal(entry.path, f->a);
+    assert_string_equal(entry.temporary, temporary);
+    assert_string_equal(entry.role, "picture");
+    assert_false(otx_atomic_file_at(set, 1, &entry));
     assert_int_equal(
         otx_atomic_file_add(run, set, f->b, &temporary), OSDTEX_OK);
     assert_int_equal(otx_atomic_file_publish(run, shared), OSDTEX_OK);
