@@ -396,10 +396,11 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
     [OTX_FLAG_TASK] =
         {"task", 0, OTX_FLAG_GROUP_MAIN, "K", "which task of the job, from 0"},
     [OTX_FLAG_MAN] =
-        {"man", 0, OTX_FLAG_GROUP_HIDDEN, NULL, "print the man page"},
+        {"man", 0, OTX_FLAG_GROUP_HIDDEN, NULL,
+         "print the man page, or that of a command"},
     [OTX_FLAG_COMPLETION] =
         {"completion", 0, OTX_FLAG_GROUP_HIDDEN, NULL,
-         "print a completion script for bash"},
+         "print a completion script, for bash, zsh or fish"},
     [OTX_FLAG_VERBOSE] =
         {"verbose", 'v', OTX_FLAG_GROUP_COMMON, NULL,
          "also say how long each stage took"},
@@ -627,6 +628,10 @@ otx_flag_parse(
     const getopt_table table = make_table(ids);
 
     *out = (otx_flag_values){.ids = ids};
+    /* getopt puts the operands last. */
+    for (; out->word_count < argc && out->word_count < OTX_FLAG_WORDS_MAX;
+         ++out->word_count)
+        out->words[out->word_count] = argv[out->word_count];
     optind = 0; /* glibc: start afresh */
     opterr = 0;
     for (;;)

@@ -19,6 +19,7 @@ GROUPS = ["build", "test", "medium", "oracles"]
 # Which package brings what does not go by its package's name.
 PACKAGES = {
     "PIL": "python3-pil", "numpy": "python3-numpy",
+    "jsonschema": "python3-jsonschema",
     "pxr": "usd-core", "MaterialX": "materialx",
     "OpenImageIO": "openimageio", "PyOpenColorIO": "opencolorio",
     "oiiotool": "openimageio-tools", "idiff": "openimageio-tools",
@@ -26,7 +27,8 @@ PACKAGES = {
     "munged": "munge", "slurmctld": "slurm-wlm", "slurmd": "slurm-wlm",
     "sbatch": "slurm-wlm", "scontrol": "slurm-wlm", "sinfo": "slurm-wlm",
     "squeue": "slurm-wlm", "node": "nodejs", "nm": "binutils",
-    "pkg-config": "pkgconf", "ctest": "cmake", "ninja": "ninja-build",
+    "pkg-config": "pkgconf", "ctest": "cmake", "cpack": "cmake",
+    "ninja": "ninja-build",
     "c++": "g++", "clang++": "clang", "cc": "gcc", "git": "git",
     "abidiff": "abigail-tools", "abidw": "abigail-tools", "objdump": "binutils",
 }

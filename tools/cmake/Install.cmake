@@ -3,16 +3,44 @@
 # osdtex::static.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS osdtex_shared osdtex_static
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+# The components are the packages of Packages.cmake.
+install(TARGETS osdtex_shared
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library
+  NAMELINK_COMPONENT development)
+install(TARGETS osdtex_static
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(DIRECTORY include/osdtex DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  FILES_MATCHING PATTERN "*.h")
+  COMPONENT development FILES_MATCHING PATTERN "*.h")
 if(TARGET osdtex)
-  install(TARGETS osdtex RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS osdtex RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+    COMPONENT tools)
 endif()
-install(FILES docs/man/osdtex.1
-  DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+install(DIRECTORY docs/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+  COMPONENT tools FILES_MATCHING PATTERN "*.1")
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc
+  PATTERN "man" EXCLUDE)
+install(FILES README.md CHANGELOG.md LICENSE
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
+
+# What shells complete, printed by the program from its own table.
+if(TARGET osdtex)
+  set(OSDTEX_COMPLETIONS ${PROJECT_BINARY_DIR}/completions)
+  add_custom_command(OUTPUT ${OSDTEX_COMPLETIONS}/osdtex
+      ${OSDTEX_COMPLETIONS}/_osdtex ${OSDTEX_COMPLETIONS}/osdtex.fish
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${OSDTEX_COMPLETIONS}
+    COMMAND osdtex help --completion bash >${OSDTEX_COMPLETIONS}/osdtex
+    COMMAND osdtex help --completion zsh >${OSDTEX_COMPLETIONS}/_osdtex
+    COMMAND osdtex help --completion fish >${OSDTEX_COMPLETIONS}/osdtex.fish
+    DEPENDS osdtex COMMENT "What shells complete")
+  add_custom_target(osdtex_completions ALL
+    DEPENDS ${OSDTEX_COMPLETIONS}/osdtex)
+  install(FILES ${OSDTEX_COMPLETIONS}/osdtex COMPONENT tools
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(FILES ${OSDTEX_COMPLETIONS}/_osdtex COMPONENT tools
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+  install(FILES ${OSDTEX_COMPLETIONS}/osdtex.fish COMPONENT tools
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+endif()
 
 # The archive needs what it is made of. Names of libraries rather than targets:
 # a consumer shall not need the (partly broken) CMake packages of the
@@ -33,10 +61,10 @@ configure_package_config_file(tools/cmake/osdtexConfig.cmake.in
 write_basic_package_version_file(osdtexConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/osdtex.pc
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/osdtexConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/osdtexConfigVersion.cmake
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/osdtex)
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/osdtex COMPONENT development)
 
 # Only the public functions are exported; what C++ instantiates from the
 # standard library would be, too.
@@ -45,15 +73,16 @@ target_link_options(osdtex_shared PRIVATE
   -Wl,--version-script=${OSDTEX_EXPORTS})
 set_target_properties(osdtex_shared PROPERTIES LINK_DEPENDS ${OSDTEX_EXPORTS})
 install(FILES tools/dcc/blender/osdtex_import.py
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex/blender)
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex/blender COMPONENT tools)
 install(FILES tools/dcc/osdtex_cage.py tools/dcc/osdtex_job.py
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex)
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex COMPONENT tools)
 # The add-on as Blender installs it.
 find_program(OSDTEX_PYTHON3 NAMES python3)
 if(OSDTEX_PYTHON3)
   install(CODE "execute_process(COMMAND ${OSDTEX_PYTHON3}
     ${PROJECT_SOURCE_DIR}/tools/dcc/blender/make-addon
-    ${PROJECT_BINARY_DIR}/osdtex_blender.zip COMMAND_ERROR_IS_FATAL ANY)")
+    ${PROJECT_BINARY_DIR}/osdtex_blender.zip COMMAND_ERROR_IS_FATAL ANY)"
+    COMPONENT tools)
   install(FILES ${PROJECT_BINARY_DIR}/osdtex_blender.zip
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex/blender)
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex/blender COMPONENT tools)
 endif()
