@@ -7,7 +7,7 @@ set -eu
 build=$(realpath "$1")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-/usr/bin/python3 -c 'import numpy, pip, setuptools, wheel' 2>/dev/null || {
+/usr/bin/python3 -c 'import numpy, setuptools, wheel, pip' 2>/dev/null || {
     echo "skipped: no pip, setuptools, wheel or NumPy (tools/deps medium)"
     exit 77
 }
