@@ -23,11 +23,13 @@ OSDTEX_BEGIN_DECLS
 typedef int32_t osdtex_bake_uvs;
 enum
 {
-    OSDTEX_BAKE_UVS_AUTO = 0, /* the cage's where they can be baked onto: on
-                               * UDIM tiles, with area, not on top of each
-                               * other; else an atlas, and a finding */
-    OSDTEX_BAKE_UVS_OWN = 1,  /* the cage's, on UDIM tiles */
-    OSDTEX_BAKE_UVS_ATLAS = 2 /* a block for every face of the cage */
+    OSDTEX_BAKE_UVS_AUTO = 0,  /* the cage's where they can be baked onto: on
+                                * UDIM tiles, with area, not on top of each
+                                * other; else an atlas, and a finding */
+    OSDTEX_BAKE_UVS_OWN = 1,   /* the cage's, on UDIM tiles */
+    OSDTEX_BAKE_UVS_ATLAS = 2, /* a block for every face of the cage */
+    OSDTEX_BAKE_UVS_CHARTS = 3 /* faces of the cage in few islands that lie
+                                * flat, for painters */
 };
 
 /* What is baked besides the colour, as 32-bit NAME_patch.<UDIM>.exr and so on:

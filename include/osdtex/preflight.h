@@ -50,7 +50,7 @@ typedef struct osdtex_forecast
     double bytes;        /* of memory, about, for surface and mapping */
     double density;      /* texels of the exemplar to a scene unit */
     int32_t level;       /* as resolved */
-    osdtex_bake_uvs uvs; /* of a bake: OWN or ATLAS, as resolved */
+    osdtex_bake_uvs uvs; /* of a bake: OWN, ATLAS or CHARTS */
     double bake_density; /* texels of the bake to a scene unit, about; 0: the
                           * job bakes nothing */
     double uv_overlap;   /* share of the texture that faces claim together, of

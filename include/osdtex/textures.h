@@ -47,7 +47,7 @@ typedef struct osdtex_textures_info
                            * unit square */
     int32_t side;         /* texels of a tile at level 0 */
     int32_t level_count;  /* level l has max(1, side >> l) texels a side */
-    osdtex_bake_uvs uvs;  /* OWN or ATLAS, as resolved */
+    osdtex_bake_uvs uvs;  /* OWN, ATLAS or CHARTS */
     osdtex_fvar fvar;     /* by which the coordinates below are subdivided */
     /* The cage's coordinates under which the textures lie. They are of the
      * faces of the cage in their order. */

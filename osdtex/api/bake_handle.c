@@ -42,7 +42,7 @@ otx_bake_handle_options(
 
     *out = osdtex_bake_options_default();
     OTX_TRY(otx_call_options(run, out, sizeof *out, theirs));
-    if (out->uvs < OSDTEX_BAKE_UVS_AUTO || out->uvs > OSDTEX_BAKE_UVS_ATLAS ||
+    if (out->uvs < OSDTEX_BAKE_UVS_AUTO || out->uvs > OSDTEX_BAKE_UVS_CHARTS ||
         (out->extras & ~known) != 0)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "bake", OTX_NOWHERE,

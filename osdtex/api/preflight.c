@@ -3,7 +3,7 @@
 #include "api/handle.h"
 #include "api/map_resolve.h"
 #include "api/rehearsal.h"
-#include "bake/atlas.h"
+#include "bake/charts.h"
 #include "bake/uv_choice.h"
 #include "image/udim.h"
 #include "method/scale_check.h"
@@ -216,13 +216,14 @@ check_udim(const look *l, int32_t tile_count)
 }
 
 static otx_status
-pack_atlas(look *l)
+pack_atlas(look *l, bool charts)
 {
     const otx_atlas_options how = {
         l->bake.resolution, l->bake.margin, l->bake.texels_per_unit};
     otx_atlas atlas;
 
-    OTX_TRY(otx_atlas_pack(l->run, &l->draft, &how, &atlas));
+    OTX_TRY((charts ? otx_charts_make : otx_atlas_pack)(
+        l->run, &l->draft, &how, &atlas));
     l->forecast.bake_density = atlas.texels_per_unit;
     return check_udim(l, atlas.tile_count);
 }
@@ -236,7 +237,7 @@ check_bake(look *l)
     if (!l->bakes)
         return OSDTEX_OK;
     if (l->bake.uvs < OSDTEX_BAKE_UVS_AUTO ||
-        l->bake.uvs > OSDTEX_BAKE_UVS_ATLAS || l->bake.resolution < 1)
+        l->bake.uvs > OSDTEX_BAKE_UVS_CHARTS || l->bake.resolution < 1)
         return otx_fail(
             l->run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "there are no such UVs, or no such resolution");
@@ -244,8 +245,8 @@ check_bake(look *l)
         l->run, &l->draft, (otx_layout_source)l->bake.uvs, &source, &survey));
     l->forecast.uvs = (osdtex_bake_uvs)source;
     l->forecast.uv_overlap = survey.overlap;
-    if (source == OTX_LAYOUT_ATLAS)
-        OTX_TRY(pack_atlas(l));
+    if (source != OTX_LAYOUT_OWN)
+        OTX_TRY(pack_atlas(l, source == OTX_LAYOUT_CHARTS));
     else
         OTX_TRY(check_udim(l, 0));
     if (source == OTX_LAYOUT_OWN && survey.side > 0.0)

@@ -130,7 +130,9 @@ describe_layout(osdtex_textures *handle, int32_t udim)
     info->tiles = layout->tiles + handle->first_tile;
     info->side = layout->side;
     info->level_count = otx_pyramid_count(layout->side, layout->side);
-    info->uvs = layout->is_atlas ? OSDTEX_BAKE_UVS_ATLAS : OSDTEX_BAKE_UVS_OWN;
+    info->uvs = layout->is_charts  ? OSDTEX_BAKE_UVS_CHARTS
+                : layout->is_atlas ? OSDTEX_BAKE_UVS_ATLAS
+                                   : OSDTEX_BAKE_UVS_OWN;
     info->fvar = (osdtex_fvar)otx_cage_model_fvar(layout);
     info->uv_count = layout->uv_count;
     info->corner_count = cage->corner_count;

@@ -258,8 +258,8 @@ set_uvs(const otx_cage *cage, const packing *p, const otx_atlas *atlas)
     }
 }
 
-static otx_status
-check(otx_run *run, const otx_atlas_options *options)
+otx_status
+otx_atlas_check(otx_run *run, const otx_atlas_options *options)
 {
     const int32_t margin = options->margin;
 
@@ -279,8 +279,8 @@ check(otx_run *run, const otx_atlas_options *options)
     return OSDTEX_OK;
 }
 
-static otx_status
-check_tiles(otx_run *run, const otx_atlas *atlas)
+otx_status
+otx_atlas_check_tiles(otx_run *run, const otx_atlas *atlas)
 {
     if (atlas->tile_count > OTX_UDIM_COLUMNS * OTX_UDIM_ROWS - 1)
         return otx_fail(
@@ -341,7 +341,7 @@ otx_atlas_pack(
     };
 
     *out = (otx_atlas){0};
-    OTX_TRY(check(run, options));
+    OTX_TRY(otx_atlas_check(run, options));
     out->uvs = OTX_NEW(run->arena, float, 2 * (size_t)cage->corner_count);
     OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_extent_measure(run, surface, extents));
@@ -351,7 +351,7 @@ otx_atlas_pack(
     settle(&p, options, out);
     set_uvs(cage, &p, out);
     otx_arena_release(run->scratch, mark);
-    OTX_TRY(check_tiles(run, out));
+    OTX_TRY(otx_atlas_check_tiles(run, out));
     warn(run, cage, options, out);
     return OSDTEX_OK;
 }

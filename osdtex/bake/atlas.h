@@ -26,12 +26,23 @@ typedef struct otx_atlas_options
 
 typedef struct otx_atlas
 {
-    float *uvs; /* [cage corner_count * 2] */
+    /* [cage corner_count * 2] of the corners, or where corner_index is given
+     * [uv_count * 2], and corner_uvs those of the corners. */
+    float *uvs;
+    int32_t uv_count;
+    const int32_t *corner_index; /* [cage corner_count] of charts; NULL */
+    const float *corner_uvs;     /* [cage corner_count * 2] of charts; NULL */
     int32_t margin;
     double texels_per_unit; /* as asked or found; blocks are rounded up from
                                there */
     int32_t tile_count;
 } otx_atlas;
+
+/* Refuses margins and sides that no atlas has. ARGUMENT. */
+otx_status otx_atlas_check(otx_run *run, const otx_atlas_options *options);
+
+/* Refuses more tiles than UDIM numbers. LIMIT. */
+otx_status otx_atlas_check_tiles(otx_run *run, const otx_atlas *atlas);
 
 /* Says what an atlas has come to. */
 void otx_atlas_tell(otx_run *run, const otx_atlas *atlas);

@@ -1,7 +1,7 @@
 /* layout.c -- texture coordinates of the leaves, charts and tiles. */
 #include "bake/layout.h"
 
-#include "bake/atlas.h"
+#include "bake/charts.h"
 #include "bake/fvar_linear.h"
 #include "image/udim.h"
 #include "math/vec.h"
@@ -39,7 +39,9 @@ use_own(otx_run *run, otx_layout *out)
 }
 
 static otx_status
-make_atlas(otx_run *run, const otx_layout_options *options, otx_layout *out)
+make_atlas(
+    otx_run *run, const otx_layout_options *options, bool charts,
+    otx_layout *out)
 {
     const otx_surface *surface = out->surface;
     const int32_t cage_corners = surface->cage->corner_count;
@@ -47,20 +49,32 @@ make_atlas(otx_run *run, const otx_layout_options *options, otx_layout *out)
     const otx_atlas_options how = {
         options->side, options->margin, options->texels_per_unit};
     float *leaf_uvs = OTX_NEW(run->arena, float, 2 * (size_t)corners);
-    int32_t *face_uvs = OTX_NEW(run->arena, int32_t, cage_corners);
+    int32_t *face_uvs;
     otx_atlas atlas;
 
     OTX_TRY(otx_run_ok(run));
+    out->is_atlas = true;
+    out->leaf_uvs = leaf_uvs;
+    out->is_charts = charts;
+    if (charts)
+    {
+        OTX_TRY(otx_charts_make(run, surface, &how, &atlas));
+        out->uv_count = atlas.uv_count;
+        out->uvs = atlas.uvs;
+        out->face_uvs = atlas.corner_index;
+        out->margin = atlas.margin;
+        return otx_fvar_linear(run, surface, atlas.corner_uvs, leaf_uvs);
+    }
     OTX_TRY(otx_atlas_pack(run, surface, &how, &atlas));
     otx_atlas_tell(run, &atlas);
     OTX_TRY(otx_fvar_linear(run, surface, atlas.uvs, leaf_uvs));
+    face_uvs = OTX_NEW(run->arena, int32_t, cage_corners);
+    OTX_TRY(otx_run_ok(run));
     for (int32_t c = 0; c < cage_corners; ++c)
         face_uvs[c] = c;
-    out->is_atlas = true;
     out->uv_count = cage_corners;
     out->uvs = atlas.uvs;
     out->face_uvs = face_uvs;
-    out->leaf_uvs = leaf_uvs;
     out->margin = atlas.margin;
     return OSDTEX_OK;
 }
@@ -94,8 +108,8 @@ place_leaves(otx_run *run, const otx_layout_options *options, otx_layout *out)
     otx_layout_source source;
 
     OTX_TRY(choose_source(run, out->surface, options->source, &source));
-    if (source == OTX_LAYOUT_ATLAS)
-        return make_atlas(run, options, out);
+    if (source != OTX_LAYOUT_OWN)
+        return make_atlas(run, options, source == OTX_LAYOUT_CHARTS, out);
     out->margin = options->margin > 0 ? options->margin : MARGIN_OWN;
     return use_own(run, out);
 }

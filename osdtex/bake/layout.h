@@ -21,7 +21,8 @@ typedef struct otx_layout_options
 typedef struct otx_layout
 {
     const otx_surface *surface;
-    bool is_atlas;
+    bool is_atlas;  /* made here, to go with the rule "linear all" */
+    bool is_charts; /* of charts (charts.h), not of blocks */
     /* Of the cage, as the artist's file carries them. */
     int32_t uv_count;
     const float *uvs;        /* [uv_count * 2] */

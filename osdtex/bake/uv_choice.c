@@ -182,9 +182,9 @@ otx_uv_choose(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             "the cage has no UVs to bake onto; give it some, or let an atlas "
             "be made");
-    if (cage->uv_count == 0)
+    if (cage->uv_count == 0 && asked == OTX_LAYOUT_AUTO)
         *out = OTX_LAYOUT_ATLAS;
-    if (*out == OTX_LAYOUT_ATLAS)
+    if (*out == OTX_LAYOUT_ATLAS || *out == OTX_LAYOUT_CHARTS)
         return OSDTEX_OK;
     OTX_TRY(otx_uv_survey_run(run, draft, survey));
     if (asked == OTX_LAYOUT_OWN)

@@ -8,7 +8,8 @@ typedef enum otx_layout_source
 {
     OTX_LAYOUT_AUTO, /* the cage's UVs where they can be baked onto */
     OTX_LAYOUT_OWN,
-    OTX_LAYOUT_ATLAS
+    OTX_LAYOUT_ATLAS,
+    OTX_LAYOUT_CHARTS
 } otx_layout_source;
 
 /* Replaces OTX_LAYOUT_AUTO by what it comes to: the cage's own UVs, or an atlas

@@ -9,15 +9,16 @@
 static bool
 parse_uvs(const otx_flag_values *values, osdtex_bake_options *out)
 {
-    static const char *const words[] = {"auto", "own", "atlas"};
+    static const char *const words[] = {"auto", "own", "atlas", "charts"};
     const char *text = values->text[OTX_FLAG_BAKE_UVS];
     int index;
 
     if (!text)
         return true;
-    if (!otx_value_word(text, words, 3, &index))
+    if (!otx_value_word(text, words, 4, &index))
     {
-        otx_session_refuse("--uvs takes auto, own or atlas, not '%s'", text);
+        otx_session_refuse(
+            "--uvs takes auto, own, atlas or charts, not '%s'", text);
         return false;
     }
     out->uvs = index;

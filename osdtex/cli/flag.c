@@ -199,9 +199,10 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"bake", 0, OTX_FLAG_GROUP_BAKE, NULL,
          "also write what `osdtex bake` writes"},
     [OTX_FLAG_BAKE_UVS] =
-        {"uvs", 0, OTX_FLAG_GROUP_BAKE, "auto|own|atlas",
-         "texture coordinates to bake onto: the cage's own, or an atlas with a "
-         "block for every face (default auto: its own where they can be baked "
+        {"uvs", 0, OTX_FLAG_GROUP_BAKE, "auto|own|atlas|charts",
+         "texture coordinates to bake onto: the cage's own, an atlas with a "
+         "block for every face, or charts: few islands that lie flat, for "
+         "painters (default auto: its own where they can be baked "
          "onto, on UDIM tiles, with area, not on top of each other)"},
     [OTX_FLAG_RESOLUTION] =
         {"resolution", 0, OTX_FLAG_GROUP_BAKE, "PX",

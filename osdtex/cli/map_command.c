@@ -190,8 +190,9 @@ say_bake(const job *j)
         "baked into    %s, %s and their textures of %d texels\n"
         "onto          %s, about %.4g texels per scene unit\n",
         r->cage_obj, r->cage_mtl, r->bake_options.resolution,
-        j->forecast.uvs == OSDTEX_BAKE_UVS_OWN ? "the cage's own UVs"
-                                               : "an atlas",
+        j->forecast.uvs == OSDTEX_BAKE_UVS_OWN      ? "the cage's own UVs"
+        : j->forecast.uvs == OSDTEX_BAKE_UVS_CHARTS ? "charts"
+                                                    : "an atlas",
         j->forecast.bake_density);
 }
 

@@ -49,23 +49,6 @@ make_maps(
     return OSDTEX_OK;
 }
 
-/* Children come after their parents, level by level. */
-static const int32_t *
-list_roots(otx_run *run, const otx_surface *surface)
-{
-    const int32_t levels = surface->level_count;
-    const otx_level *leaf = otx_surface_leaf(surface);
-    int32_t *roots = OTX_NEW(run->arena, int32_t, leaf->face_count);
-
-    for (int32_t f = 0; roots && f < leaf->face_count; ++f)
-    {
-        roots[f] = f;
-        for (int32_t i = levels - 1; i > 0; --i)
-            roots[f] = surface->levels[i].face_parent[roots[f]];
-    }
-    return roots;
-}
-
 otx_status
 otx_scene_from_mapping(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
@@ -95,10 +78,9 @@ otx_scene_from_mapping(
         .vert_normals = surface->normals,
         .texture_count = count,
         .textures = textures,
-        .face_root = list_roots(run, surface),
+        .face_root = leaf->face_cage,
         .face_patch = mapping->face_patch,
     };
-    OTX_TRY(otx_run_ok(run));
     OTX_TRY(list_sources(run, mapping, &out->face_texture));
     OTX_TRY(make_maps(run, mapping, exemplars, &out->maps));
     return otx_distortion_faces(

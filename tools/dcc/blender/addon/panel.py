@@ -34,7 +34,7 @@ class Settings(bpy.types.PropertyGroup):
         description="Texels of a UDIM tile's side")
     scheme: EnumProperty(
         name="Scheme", items=same("catmark", "loop", "bilinear"))
-    uvs: EnumProperty(name="UVs", items=same("auto", "own", "atlas"))
+    uvs: EnumProperty(name="UVs", items=same("auto", "own", "atlas", "charts"))
     constraints: StringProperty(
         name="Directions",
         description="An attribute of vectors, or of colours as in a normal map, "

@@ -1,0 +1,107 @@
+/* test_chart_cut.c -- every face lies in one chart, unfolded and welded. */
+#include "unit/bake/flat.h"
+
+#include "bake/chart_cut.h"
+
+static const char *const CAGES[] = {
+    "models/cages/jack.obj", "models/cages/ngons_and_triangles.obj",
+    "models/cages/loop_open.obj", "models/cages/hole.obj"};
+
+static double
+area_of(const otx_cage *cage, const otx_chart_cut *cut, int32_t face)
+{
+    const int32_t first = cage->face_first[face];
+    const int32_t n = cage->face_first[face + 1] - first;
+    double sum = 0.0;
+
+    for (int32_t k = 0; k < n; ++k)
+        sum += 0.5 * otx_vec2_cross(
+                         cut->flat[first + k], cut->flat[first + (k + 1) % n]);
+    return sum;
+}
+
+/* Corners of a chart that are one vertex are at one place. */
+static void
+check_welds(const otx_cage *cage, const otx_chart_cut *cut, int32_t chart)
+{
+    for (int32_t i = cut->first[chart]; i < cut->first[chart + 1]; ++i)
+        for (int32_t j = cut->first[chart]; j < i; ++j)
+            for (int32_t a = cage->face_first[cut->faces[i]];
+                 a < cage->face_first[cut->faces[i] + 1]; ++a)
+                for (int32_t b = cage->face_first[cut->faces[j]];
+                     b < cage->face_first[cut->faces[j] + 1]; ++b)
+                    if (cage->face_verts[a] == cage->face_verts[b])
+                        assert_memory_equal(
+                            &cut->flat[a], &cut->flat[b], sizeof *cut->flat);
+}
+
+static void
+faces_are_in_one_chart(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof CAGES / sizeof *CAGES; ++i)
+    {
+        otx_run *run = test_run_create();
+        otx_chart_cut cut;
+        otx_cage cage;
+        int32_t *seen;
+
+        assert_int_equal(mesh_cage_from_file(run, CAGES[i], &cage), OSDTEX_OK);
+
+        const otx_surface surface = mesh_refine(run, &cage, 2);
+
+        assert_int_equal(
+            otx_chart_cut_make(run, &surface, INFINITY, &cut), OSDTEX_OK);
+        seen = OTX_ZNEW(run->arena, int32_t, cage.face_count);
+        for (int32_t c = 0; c < cut.chart_count; ++c)
+        {
+            check_welds(&cage, &cut, c);
+            for (int32_t k = cut.first[c]; k < cut.first[c + 1]; ++k)
+            {
+                ++seen[cut.faces[k]];
+                assert_true(area_of(&cage, &cut, cut.faces[k]) > 0.0);
+            }
+        }
+        for (int32_t f = 0; f < cage.face_count; ++f)
+            assert_int_equal(
+                seen[f], !(surface.levels[0].face_hole &&
+                           surface.levels[0].face_hole[f]));
+        assert_true(cut.chart_count < cage.face_count);
+        assert_true(cut.stretch >= 1.0 && cut.stretch < 1.5);
+        test_run_destroy(run);
+    }
+}
+
+/* What is flat is one chart of its own shape; smaller ones where it must be. */
+static void
+a_plane_is_one_chart(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_chart_cut cut;
+    otx_cage cage;
+
+    (void)state;
+    assert_int_equal(
+        mesh_cage_from_file(run, "models/cages/plane.obj", &cage), OSDTEX_OK);
+
+    const otx_surface surface = mesh_refine(run, &cage, 0);
+
+    assert_int_equal(
+        otx_chart_cut_make(run, &surface, INFINITY, &cut), OSDTEX_OK);
+    assert_int_equal(cut.chart_count, 1);
+    assert_true(cut.stretch < 1.0001);
+    assert_int_equal(otx_chart_cut_make(run, &surface, 3.0, &cut), OSDTEX_OK);
+    assert_true(cut.chart_count > 1);
+    test_run_destroy(run);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(faces_are_in_one_chart),
+        cmocka_unit_test(a_plane_is_one_chart),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
