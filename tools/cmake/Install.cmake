@@ -76,6 +76,10 @@ install(FILES tools/dcc/blender/osdtex_import.py
   DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex/blender COMPONENT tools)
 install(FILES tools/dcc/osdtex_cage.py tools/dcc/osdtex_job.py
   DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex COMPONENT tools)
+install(FILES tools/dcc/houdini/osdtex_sop.py
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex/houdini COMPONENT tools)
+install(FILES tools/dcc/maya/osdtex_shelf.py
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/osdtex/maya COMPONENT tools)
 # The add-on as Blender installs it.
 find_program(OSDTEX_PYTHON3 NAMES python3)
 if(OSDTEX_PYTHON3)
