@@ -83,26 +83,41 @@ differ_in_lists(const json_t *a, const json_t *b)
     return are_alike;
 }
 
-/* Whether `after` is `before` and one later edit. */
+/* Whether `after` is `before` and the next edit. */
 static bool
 is_one_edit_later(const json_t *before, const json_t *after)
 {
     const size_t old = json_array_size(before), all = json_array_size(after);
-    const json_int_t last =
-        all > 0 ? edit_of(json_array_get(after, all - 1)) : 0;
+    json_int_t most = 0;
 
-    if (all <= old || last < 1)
-        return false;
-    for (size_t i = 0; i < all; ++i)
+    for (size_t i = 0; i < old && i < all; ++i)
     {
         const json_t *item = json_array_get(after, i);
 
-        if (i < old ? !json_equal(item, json_array_get(before, i)) ||
-                          edit_of(item) >= last
-                    : edit_of(item) != last)
+        if (!json_equal(item, json_array_get(before, i)))
             return false;
+        most = edit_of(item) > most ? edit_of(item) : most;
     }
-    return true;
+    for (size_t i = old; i < all; ++i)
+        if (edit_of(json_array_get(after, i)) != most + 1)
+            return false;
+    return all > old;
+}
+
+/* Those from `first` on, for a call that gives them the next number itself. */
+static json_t *
+rest_of(const json_t *list, size_t first)
+{
+    json_t *rest = json_array();
+
+    for (size_t k = first; k < json_array_size(list); ++k)
+    {
+        json_t *item = json_deep_copy(json_array_get(list, k));
+
+        json_object_del(item, "edit");
+        json_array_append_new(rest, item);
+    }
+    return rest;
 }
 
 otx_outcome *
@@ -117,9 +132,7 @@ otx_shelf_base(const otx_shelf *shelf, const json_t *recipe, json_t **rest)
         if (!is_one_edit_later(before, list) ||
             !differ_in_lists(shelf->rows[i].recipe, recipe))
             continue;
-        *rest = json_array();
-        for (size_t k = json_array_size(before); k < json_array_size(list); ++k)
-            json_array_append(*rest, json_array_get(list, k));
+        *rest = rest_of(list, json_array_size(before));
         return *rest ? shelf->rows[i].outcome : NULL;
     }
     return NULL;

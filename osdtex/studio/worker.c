@@ -121,6 +121,43 @@ prepare(otx_studio_worker *w, const json_t *recipe, osdtex_map_options *map)
     return status;
 }
 
+/* The edit of a mapping that makes it the recipe's. */
+static osdtex_status
+edit_base(
+    otx_studio_worker *w, const otx_outcome *base, const json_t *rest,
+    osdtex_mapping **out)
+{
+    osdtex_edit_options options = osdtex_edit_options_default();
+    char path[OTX_STUDIO_PATH_BYTES + 32];
+    json_t *file = json_pack("{s:O}", "constraints", rest);
+    osdtex_status status = OSDTEX_ERROR_IO;
+
+    snprintf(
+        path, sizeof path, "%s.edit%ld.json",
+        w->desk->options->files->constraints, (long)getpid());
+    options.constraints = path;
+    if (file && otx_recipe_write(file, path))
+        status = osdtex_mapping_edit(w->context, base->mapping, &options, out);
+    json_decref(file);
+    unlink(path);
+    return status;
+}
+
+/* From what is on the shelf where that will do; *out stays NULL where not. */
+static osdtex_status
+edit_recipe(otx_studio_worker *w, const json_t *recipe, osdtex_mapping **out)
+{
+    json_t *rest = NULL;
+    const otx_outcome *base = otx_shelf_base(&w->shelf, recipe, &rest);
+    osdtex_status status = OSDTEX_OK;
+
+    *out = NULL;
+    if (base && base->surface_serial == w->surface_serial)
+        status = edit_base(w, base, rest, out);
+    json_decref(rest);
+    return status;
+}
+
 /* What the page is shown of a mapping. */
 static osdtex_status
 wrap_up(
@@ -164,8 +201,10 @@ map_recipe(
         return OSDTEX_OK;
     }
     status = prepare(w, recipe, &map);
-    *is_edit = false;
     if (status == OSDTEX_OK)
+        status = edit_recipe(w, recipe, &mapping);
+    *is_edit = mapping != NULL;
+    if (status == OSDTEX_OK && !mapping)
         status = osdtex_map(
             w->context, w->desk->options->cage,
             w->exemplars[w->surface_exemplar], &map, &mapping);

@@ -21,6 +21,7 @@ SPHERE = CAGES / "sphere.obj"
 BRICKS = EXEMPLARS / "bricks_tile.png"
 GRAVEL = EXEMPLARS / "gravel_tile.png"
 COMB = {"point": [1, 0, 0], "radius": .2, "direction": [0, 1, .25]}
+REDO = {"point": [0, 0, 1], "radius": .2, "redo": 1}
 SECONDS = 120
 
 
@@ -165,7 +166,13 @@ class StudioTest(ProgramTest):
                 COMB, {"point": [-1, 0, 0], "radius": .3, "scale": 1.5},
                 {"point": [1, 0, 0], "scale": 1}, exemplar=1,
                 seed=3, **{"first-patch": [2, .25, .5, 30]})[0], 200)
-        shown = studio.shown(2)
+        studio.shown(2)
+        asked = studio.state()["recipe"]["constraints"]["constraints"]
+        for k, more in ((1, {**COMB, "direction": [0, 1, -1]}), (2, REDO)):
+            asked.append({**more, "edit": k, "reach": .3})
+            self.assertEqual(
+                studio.comb(*asked, exemplar=1, seed=3)[0], 200)
+            self.assertTrue(studio.shown(2 + k)["snapshot"]["is_edit"])
         uvs = studio.uvs()
         studio.ask("export", "POST")
         while not (shown := studio.state())["told"]:

@@ -122,13 +122,34 @@ def brush_size(me):
     me.page.key("s")
     me.does(lambda: me.page.drag([(x - 20, y), (x + 20, y + 5)]))
     made = me.list()[before:]
+    assert all(c["scale"] > 1 and c["edit"] and c["reach"] for c in made), made
+    # Not only what is near: then places around it keep their size.
+    me.page.press("#options input[type=checkbox]")
+    before = len(me.list())
+    me.does(lambda: me.page.click(x, y - 30))
+    made = me.list()[before:]
     assert any(c["scale"] > 1 and "radius" in c for c in made), made
     assert sum(c["scale"] == 1 for c in made) > 3, made
+    assert not any("edit" in c for c in made), made
+    me.does(lambda: me.page.press("#undo"))
+    me.page.press("#options input[type=checkbox]")
     me.page.move(x + 30, y + 20)
     me.look("size")
     me.page.key("6")
     me.look("size_view")
     me.page.key("1")
+
+
+def another(me):
+    """Not this spot: the next piece of the exemplar each time."""
+    x, y = me.middle()
+    me.page.key("o")
+    me.look("other_before")
+    for k in (1, 2):
+        me.does(lambda: me.page.click(x, y))
+        assert me.list()[-1]["redo"] == k, me.list()
+        assert me.state()["snapshot"]["is_edit"]
+    me.look("other")
 
 
 def erase(me):
@@ -275,7 +296,7 @@ def main():
             me = Person(chromium.open(studio.address), shots, outputs)
             me.settled()
             me.look("begin")
-            for step in (look_around, views, seams, comb_and_undo, brush_size,
+            for step in (look_around, views, seams, comb_and_undo, brush_size, another,
                          first_patch, choose, erase, cancel, reload, tablet):
                 begun = time.monotonic()
                 step(me)

@@ -11,7 +11,7 @@ const view = new View($('canvas'), stage);
 const page = {
   tool: 'look', radius: 0.07, reach: 2.5, size: 1.5, slice: 1, mask: 2,
   at: [0.5, 0.5], angle: 0, combAngle: 0, stroke: null, asked: 0, took: null,
-  places: [], placesOf: null, place: -1,
+  places: [], placesOf: null, place: -1, local: true,
 };
 let state = null, texture = null, loads = Promise.resolve(), seenError = '';
 
@@ -36,6 +36,19 @@ async function change(edit) {
   edit(recipe);
   page.asked = performance.now();
   await post(`recipe?revision=${state.revision}`, JSON.stringify(recipe));
+}
+
+// Whether gestures can change the texture around themselves alone: as edits of
+// what is there. Some methods lay nothing that could be edited.
+const canEdit = () => ['hierarchical', 'material'].includes(state?.snapshot?.figures?.method);
+const isLocal = () => page.tool === 'redo' || (page.local && canEdit());
+
+// The same constraints as the next edit, which reaches so far and no farther.
+function asEdit(list) {
+  if (!isLocal()) return list;
+  const edit = 1 + Math.max(0, ...constraints().map(c => c.edit ?? 0));
+  const reach = Number((radius() * (page.reach - 1)).toPrecision(6));
+  return list.map(c => ({ ...c, edit, reach }));
 }
 
 const changeList = list => change(r => { r.constraints.constraints = list; });
@@ -122,13 +135,15 @@ function told() {
   $('progress').children[1].textContent = shown ? 'Texturing' : 'Texturing for the first time';
   if (s.error !== seenError) { seenError = s.error; complain(s.error); }
   $('saved').textContent = s.cancelled ? 'Stopped: the picture is older than what is asked for. Any gesture goes on.'
-    : !s.busy && page.took ? `${page.took.toFixed(1)} s from gesture to picture` : 'All is saved';
+    : !s.busy && page.took ? `${page.took.toFixed(page.took < 1 ? 2 : 1)} s from gesture to picture` : 'All is saved';
   $('told').textContent = s.told;
   $('command').textContent = s.command;
   $('stage').dataset.busy = s.busy;
   // Tools for which there is nothing to choose are not in the way.
   tool('material').hidden = !(shown?.figures?.slices > 0);
   tool('mask').hidden = !(shown?.exemplars > 1);
+  tool('redo').hidden = !canEdit();
+  if (page.couldEdit !== canEdit()) { page.couldEdit = canEdit(); showOptions(); }
   fillChoices(s);
   tellNumbers(shown);
   tellPlaces(shown);
@@ -163,7 +178,7 @@ function tellNumbers(shown) {
 }
 
 function tellGestures() {
-  const list = constraints(), kinds = { comb: 'Comb', size: 'Size', material: 'Slice', mask: 'Exemplar' };
+  const list = constraints(), kinds = { comb: 'Comb', size: 'Size', material: 'Slice', mask: 'Exemplar', redo: 'Other' };
   $('gestures').replaceChildren(...gestures(list).map(g => {
     const item = document.createElement('li');
     const go = document.createElement('button'), drop = document.createElement('button');
@@ -207,7 +222,9 @@ function visitPlace(i) {
   page.place = i;
   view.visit(p.point.map((x, k) => x - view.surface.origin[k]), p.normal, view.radius * 0.9);
   markPlace();
-  $('places').children[i].scrollIntoView({ block: 'nearest' });
+  // The list alone, not the panel, whose options stay in sight.
+  const list = $('places'), item = list.children[i];
+  list.scrollTop = item.offsetTop - list.offsetTop - (list.clientHeight - item.clientHeight) / 2;
 }
 
 const stepPlace = by => page.places.length &&
@@ -255,7 +272,7 @@ function drawCursor(hit) {
   view.clear(view.cursor);
   if (hit && page.tool !== 'look') {
     view.cursor.add(view.ring(hit.point, hit.normal, radius(), 0xffffff, 0.9));
-    if (['size', 'material', 'mask'].includes(page.tool))
+    if (['size', 'material', 'mask'].includes(page.tool) || (isLocal() && BRUSHES.includes(page.tool)))
       view.cursor.add(view.ring(hit.point, hit.normal, radius() * page.reach, 0x6fd3ff, 0.6));
     if (page.stroke?.path.length > 1)
       view.cursor.add(view.line(page.stroke.path.flatMap(p => p.point), 0xffc15a));
@@ -265,12 +282,20 @@ function drawCursor(hit) {
 
 // ---- gestures ----
 
+const near3 = (a, b) => Math.hypot(...a.map((x, k) => x - b[k]));
+
 function apply(path) {
   const s = view.surface, r = radius(), near = p => view.picker.near(p);
-  const brush = (value, neutral) =>
-    addToList(brushed(path, r, r * page.reach, value, neutral, s.origin, near));
+  const brush = (value, neutral) => addToList(asEdit(
+    brushed(path, r, r * page.reach, value, isLocal() ? null : neutral, s.origin, near)));
   switch (page.tool) {
-    case 'comb': return addToList(combed(path, r, s.origin));
+    case 'comb': return addToList(asEdit(combed(path, r, s.origin)));
+    case 'redo': {
+      const at = brushed(path, r, r, {}, null, s.origin, near);
+      const tries = constraints().filter(c => c.redo && near3(c.point, at[0].point) < r + c.radius);
+      const redo = 1 + Math.max(0, ...tries.map(c => c.redo));
+      return addToList(asEdit(at.map(c => ({ ...c, redo }))));
+    }
     case 'size': return brush({ scale: page.size }, { scale: 1 });
     case 'material': return brush({ material: page.slice }, { material: 0 });
     case 'mask': return brush({ exemplar: page.mask }, { exemplar: 1 });
@@ -288,6 +313,7 @@ const place = e => {
   return [e.clientX - box.left, e.clientY - box.top];
 };
 const fingers = new Set();
+const BRUSHES = ['comb', 'size', 'material', 'mask', 'redo'];
 
 stage.addEventListener('pointerdown', e => {
   fingers.add(e.pointerId);
@@ -408,8 +434,15 @@ function showOptions() {
     list.push(lit);
   } else if (t !== 'first')
     list.push(slider('Radius', -5, -0.7, Math.log2(page.radius), v => `${short(2 ** v * view.radius || 0)} units`, v => { page.radius = 2 ** v; }));
-  if (['size', 'material', 'mask'].includes(t))
-    list.push(slider('Goes over within', 1.3, 6, page.reach, v => `${short(v)} radii`, v => { page.reach = v; }));
+  if (BRUSHES.includes(t) && t !== 'redo' && canEdit()) {
+    const label = document.createElement('label');
+    const box = Object.assign(document.createElement('input'), { type: 'checkbox', checked: page.local });
+    box.onchange = () => { page.local = box.checked; showOptions(); };
+    label.append(box, ' Change only what is near');
+    list.push(label);
+  }
+  if (['size', 'material', 'mask'].includes(t) || (isLocal() && BRUSHES.includes(t)))
+    list.push(slider(isLocal() ? 'Changes within' : 'Goes over within', 1.3, 6, page.reach, v => `${short(v)} radii`, v => { page.reach = v; }));
   if (t === 'comb')
     list.push(slider('Direction of Enter', -90, 90, page.combAngle, v => `${Math.round(v)}°`, v => { page.combAngle = v; }));
   if (t === 'size')
@@ -421,6 +454,7 @@ function showOptions() {
   if (t === 'first')
     list.push(slider('Turned by', -180, 180, page.angle, v => `${Math.round(v)}°`, v => { page.angle = Math.round(v); drawPicture(); }));
   $('options').replaceChildren(...list);
+  $('panel').scrollTop = 0;
 }
 
 // ---- the exemplar ----

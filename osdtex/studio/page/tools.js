@@ -10,6 +10,7 @@ export const TOOLS = [
   { id: 'size', name: 'Size', key: 'S', hint: 'Brush where the texture is to be larger or smaller.' },
   { id: 'material', name: 'Slice', key: 'M', hint: 'Brush which slice of the stack shows.' },
   { id: 'mask', name: 'Mask', key: 'X', hint: 'Brush which exemplar shows.' },
+  { id: 'redo', name: 'Other', key: 'O', hint: 'Click a spot: it gets another piece of the exemplar.' },
   { id: 'first', name: 'Start', key: 'P', hint: 'Choose a place in the exemplar, then click where it goes on the model.' },
   { id: 'erase', name: 'Erase', key: 'E', hint: 'Brush over gestures to take them back.' },
 ];
@@ -69,6 +70,7 @@ export function brushed(path, radius, reach, value, neutral, origin, near) {
     point: rounded(p.point.map((x, k) => x + origin[k])), radius: number(radius), ...value,
   }));
   const kept = [];
+  if (!neutral) return out;
   for (const p of places)
     for (let i = 0; i < 10; ++i) {
       const [a, b] = frame(p.normal), t = i / 5 * Math.PI;
@@ -101,15 +103,15 @@ export function erased(list, path, radius, origin) {
 export function gestures(list) {
   const out = [];
   list.forEach((c, i) => {
-    const kind = c.direction ? 'comb' : c.scale !== undefined ? 'size'
+    const kind = c.redo ? 'redo' : c.direction ? 'comb' : c.scale !== undefined ? 'size'
       : c.material !== undefined ? 'material' : 'mask';
     const last = out[out.length - 1], before = list[i - 1];
     const keeps = c.radius === undefined;
-    const joins = last && last.kind === kind && before.point && c.point &&
+    const joins = last && last.kind === kind && before.edit === c.edit && before.point && c.point &&
       (keeps || (before.radius === c.radius && distance(before.point, c.point) < 2.5 * c.radius &&
         before.scale === c.scale && before.material === c.material && before.exemplar === c.exemplar));
     if (joins) last.end = i + 1;
-    else out.push({ kind, begin: i, end: i + 1, value: c.scale ?? c.material ?? c.exemplar });
+    else out.push({ kind, begin: i, end: i + 1, value: c.redo ? undefined : c.scale ?? c.material ?? c.exemplar });
   });
   return out;
 }

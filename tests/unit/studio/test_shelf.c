@@ -146,7 +146,8 @@ test_edits(void **state)
     /* What has a smaller number comes before what is there. */
     put(s, 1, "[{\"edit\": 3}]");
     assert_int_equal(rest_of(s, 1, "[{\"edit\": 3}, {\"edit\": 2}]"), 0);
-    assert_int_equal(rest_of(s, 1, "[{\"edit\": 3}, {\"edit\": 3}]"), 2);
+    assert_int_equal(rest_of(s, 1, "[{\"edit\": 3}, {\"edit\": 4}]"), 1);
+    assert_int_equal(rest_of(s, 1, "[{\"edit\": 3}, {\"edit\": 5}]"), 0);
 }
 
 int
