@@ -32,7 +32,8 @@ typedef struct osdtex_mapping osdtex_mapping;
 
 enum
 {
-    OSDTEX_EXEMPLARS_MAX = 4 /* of a mapping */
+    OSDTEX_EXEMPLARS_MAX = 4,       /* of a mapping */
+    OSDTEX_PLACE_PICTURES_MAX = 256 /* that lie over it; each may many times */
 };
 
 /* One more exemplar of a mapping. */
@@ -135,6 +136,10 @@ typedef struct osdtex_map_options
      * it was saved with. What was asked of it by constraints is not asked
      * again. NULL none. */
     const struct osdtex_mapping *keep;
+    /* A file of pictures that are placed over what the method makes, JSON or
+     * CSV: docs/formats-place.md. Bakes and pictures show them, UVs cannot.
+     * NULL none. */
+    const char *place;
 } osdtex_map_options;
 
 static inline osdtex_map_options
@@ -315,6 +320,8 @@ typedef struct osdtex_mapping_read_options
     /* As osdtex_map_options.heal: seams are mended once the mapping is read. 0:
      * as they were saved. */
     double heal;
+    const char *place; /* as osdtex_map_options.place, instead of what was
+                        * saved; NULL: that */
 } osdtex_mapping_read_options;
 
 static inline osdtex_mapping_read_options
@@ -350,12 +357,14 @@ enum
 {
     OSDTEX_SAVED_CAGE = 0,
     OSDTEX_SAVED_EXEMPLAR = 1,
-    OSDTEX_SAVED_MAP = 2 /* another map of an exemplar's material */
+    OSDTEX_SAVED_MAP = 2,    /* another map of an exemplar's material */
+    OSDTEX_SAVED_PICTURE = 3 /* placed over the mapping */
 };
 
 /* Calls `visit` with the files that osdtex_mapping_read() would read for this
  * saved mapping, by the paths where they are found: the cage, then the
- * exemplars in their order, then their maps. FORMAT, SUPPORT, IO, MEMORY. */
+ * exemplars in their order, then pictures that are placed, then the exemplars'
+ * maps. FORMAT, SUPPORT, IO, MEMORY. */
 OSDTEX_API osdtex_status osdtex_mapping_files(
     osdtex_context *context, const char *path,
     void (*visit)(void *user, osdtex_saved_file file, const char *path),

@@ -8,6 +8,7 @@
 #include "api/map_resolve.h"
 #include "api/material_axis.h"
 #include "api/method_settings.h"
+#include "api/place_call.h"
 #include "api/several.h"
 #include "word/near.h"
 
@@ -146,6 +147,7 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
         &exemplar->exemplar, &surface->cage->cage, &handle->settings));
     run->seed = ours.seed;
     OTX_TRY(lay(run, &ours, asked, handle));
+    OTX_TRY(otx_place_call(call, ours.place, handle));
     handle->info = otx_mapping_handle_info(handle);
     *out = handle;
     return OSDTEX_OK;

@@ -98,6 +98,22 @@ print_exemplar(const osdtex_exemplar *handle, const otx_exemplar *compared)
         "height_middle", e->companions.height_middle);
 }
 
+/* What is placed over the mapping. */
+static json_t *
+print_pictures(const otx_decals *decals)
+{
+    json_t *list = json_array();
+
+    for (int32_t k = 0; decals && k < decals->picture_count; ++k)
+        json_array_append_new(
+            list,
+            json_pack(
+                "{s:s, s:o, s:s}", "path", decals->pictures[k].source_path,
+                "hash", text_or_null(decals->pictures[k].source_hash), "from",
+                decals->pictures[k].source_space));
+    return list;
+}
+
 static json_t *
 print_settings(const osdtex_mapping *mapping)
 {
@@ -128,7 +144,7 @@ print_all(const osdtex_mapping *mapping, const char *topology)
     snprintf(seed, sizeof seed, "%" PRIu64, mapping->seed);
     return json_pack(
         "{s:i, s:s, s:o, s:o, s:s, s:o, s:f, s:s, s:i, s:i, s:i, s:f, s:i, "
-        "s:o}",
+        "s:o, s:o}",
         "format", OTX_SAVED_FORMAT, "program", osdtex_version(), "cage",
         print_cage(
             mapping->surface->cage, topology, mapping->surface->info.level),
@@ -139,7 +155,8 @@ print_all(const osdtex_mapping *mapping, const char *topology)
         m->guide ? (int)m->guide->symmetry : 0, "guide_angle",
         m->guide ? m->guide->angle : 0.0, "defect_count",
         m->lattice ? (int)m->lattice->defect_count : 0, "constraints",
-        otx_saved_constraints_print(mapping->request.constraints));
+        otx_saved_constraints_print(mapping->request.constraints), "pictures",
+        print_pictures(m->decals));
 }
 
 static otx_status
@@ -356,6 +373,28 @@ parse_exemplar(parser *p, const json_t *json, otx_saved_exemplar *out)
     parse_maps(p, json, out);
 }
 
+/* Of a file that was saved before there were any: none. */
+static void
+parse_pictures(parser *p, const json_t *list, otx_saved_about *out)
+{
+    const size_t count = json_array_size(list);
+    otx_saved_picture *pictures =
+        OTX_ZNEW(p->run->arena, otx_saved_picture, count);
+
+    p->memory = p->memory && pictures;
+    p->sound = p->sound && count <= OSDTEX_PLACE_PICTURES_MAX;
+    for (size_t k = 0; pictures && p->sound && k < count; ++k)
+    {
+        const json_t *json = json_array_get(list, k);
+
+        pictures[k] = (otx_saved_picture){
+            get_text(p, json, "path", false), get_text(p, json, "hash", true),
+            get_text(p, json, "from", false)};
+    }
+    out->pictures = pictures;
+    out->picture_count = pictures ? (int32_t)count : 0;
+}
+
 static void
 parse_settings(parser *p, json_t *json, otx_saved_about *out)
 {
@@ -403,6 +442,7 @@ parse_all(parser *p, const json_t *root, otx_saved_about *out)
         parse_exemplar(
             p, json_array_get(exemplars, k),
             &out->exemplars[out->exemplar_count++]);
+    parse_pictures(p, json_object_get(root, "pictures"), out);
     out->program = get_text(p, root, "program", false);
     out->method = get_text(p, root, "method", false);
     parse_settings(p, json_object_get(root, "settings"), out);

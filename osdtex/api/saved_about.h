@@ -26,6 +26,13 @@ typedef struct otx_saved_exemplar
                                               * maps of a material */
 } otx_saved_exemplar;
 
+/* A picture that is placed over the mapping. */
+typedef struct otx_saved_picture
+{
+    const char *path, *hash; /* hash: NULL unknown */
+    const char *from;        /* colour space, as it was resolved */
+} otx_saved_picture;
+
 /* Strings live in the arena that it was read into. */
 typedef struct otx_saved_about
 {
@@ -36,6 +43,8 @@ typedef struct otx_saved_about
     int32_t level;
     int32_t exemplar_count;
     otx_saved_exemplar exemplars[OTX_EXEMPLARS_MAX];
+    int32_t picture_count;
+    const otx_saved_picture *pictures; /* [picture_count] */
     const char *method;
     int32_t setting_count;
     osdtex_setting settings[OTX_SAVED_SETTINGS_MAX];

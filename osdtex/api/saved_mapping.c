@@ -5,7 +5,9 @@
 #include "api/map_input.h"
 #include "api/mapping_handle.h"
 #include "api/method_settings.h"
+#include "api/place_call.h"
 #include "api/saved_about.h"
+#include "api/saved_decals.h"
 #include "api/saved_field.h"
 #include "api/saved_lookups.h"
 #include "file/atomic_file.h"
@@ -66,6 +68,7 @@ gather_wide(const otx_mapping *m, otx_tensors *out)
             m->lattice->defects);
     }
     otx_saved_lookups_add_offsets(m, out);
+    otx_saved_decals_add_offsets(m, out);
 }
 
 /* Arrays in the order of their types' sizes, so that all are aligned. */
@@ -81,6 +84,7 @@ gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
         out, "cage_points", OTX_TENSOR_F32, cage->vert_count, 3, cage->points);
     otx_tensors_add(out, "uvs", OTX_TENSOR_F32, leaf->corner_count, 2, m->uvs);
     OTX_TRY(otx_saved_lookups_add_reals(run, m, out));
+    OTX_TRY(otx_saved_decals_add_reals(run, m, out));
     otx_saved_field_add_reals(m, out);
     if (m->surface->density)
         otx_tensors_add(
@@ -97,6 +101,7 @@ gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
     otx_tensors_add(
         out, "face_patch", OTX_TENSOR_I32, leaf->face_count, 0, m->face_patch);
     OTX_TRY(otx_saved_lookups_add_numbers(run, m, out));
+    OTX_TRY(otx_saved_decals_add_numbers(run, m, out));
     OTX_TRY(otx_saved_field_add_numbers(run, m, out));
     gather_cuts(mapping, out);
     if (m->lattice)
@@ -496,6 +501,45 @@ join_arrays(const loader *l, otx_mapping *out)
     return join_fields(l, leaf, out);
 }
 
+/* The pictures of the decals that were saved, as textures. */
+static otx_status
+read_pictures(const loader *l, otx_decals *decals)
+{
+    otx_run *run = &l->call->run;
+    const int32_t count = l->about.picture_count;
+    otx_place_picture *list = OTX_NEW(run->scratch, otx_place_picture, count);
+
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t k = 0; k < count; ++k)
+    {
+        list[k].from = l->about.pictures[k].from;
+        OTX_TRY(
+            find_file(run, l->path, l->about.pictures[k].path, &list[k].path));
+    }
+    return otx_place_call_pictures(
+        l->call, list, count, l->mapping->exemplars,
+        l->options.without_figures != 0, decals);
+}
+
+/* What is asked for, else what was saved. */
+static otx_status
+place(const loader *l)
+{
+    otx_run *run = &l->call->run;
+    otx_decals *decals;
+    const char *what;
+
+    if (l->options.place)
+        return otx_place_call(l->call, l->options.place, l->mapping);
+    OTX_TRY(otx_saved_decals_join(
+        run, l->tensors, otx_surface_leaf(&l->surface->surface),
+        l->about.picture_count, &decals, &what));
+    if (what)
+        return damaged(l, what);
+    l->mapping->mapping.decals = decals;
+    return decals ? read_pictures(l, decals) : OSDTEX_OK;
+}
+
 static otx_status
 join(const loader *l)
 {
@@ -529,6 +573,7 @@ join(const loader *l)
         l->path));
     run->seed = m->seed;
     OTX_TRY(otx_heal_call(run, l->options.heal, m));
+    OTX_TRY(place(l));
     m->info = otx_mapping_handle_info(m);
     return OSDTEX_OK;
 }
@@ -657,6 +702,11 @@ list_files(
     {
         OTX_TRY(find_file(run, path, about->exemplars[k].path, &found));
         visit(user, OSDTEX_SAVED_EXEMPLAR, found);
+    }
+    for (int32_t k = 0; k < about->picture_count; ++k)
+    {
+        OTX_TRY(find_file(run, path, about->pictures[k].path, &found));
+        visit(user, OSDTEX_SAVED_PICTURE, found);
     }
     for (int32_t k = 0; k < about->exemplar_count; ++k)
         for (int32_t i = 0; i < about->exemplars[k].options.map_count; ++i)

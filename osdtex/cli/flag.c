@@ -112,6 +112,11 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "point (default y); curvature, ridges, hollows; occlusion; "
          "boundary[:LENGTH], creases[:LENGTH], the way from them; red, green, "
          "blue of the vertices' colours; with a minus, as -y, the other way"},
+    [OTX_FLAG_PLACE] =
+        {"place", 0, OTX_FLAG_GROUP_MAIN, "FILE",
+         "pictures that lie over the texture where they are put, once or many "
+         "times, such as a label, a scar or knots in bark: a .json or .csv "
+         "that says which, at what face or point, how large and which way up"},
     [OTX_FLAG_SYMMETRY] =
         {"symmetry", 0, OTX_FLAG_GROUP_MAIN, "1|2|4",
          "a field of arrows, of lines or of crosses (default: what the file "

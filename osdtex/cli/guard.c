@@ -69,6 +69,8 @@ otx_guard_named(
         status = add_file(context, deep, out, values->operands[i]);
     for (int i = 0; i < 4 && status == OSDTEX_OK; ++i)
         status = add_file(context, deep, out, values->text[files[i]]);
+    if (status == OSDTEX_OK)
+        status = add_file(context, true, out, values->text[OTX_FLAG_PLACE]);
     for (int i = 0; i < values->also_count && status == OSDTEX_OK; ++i)
     {
         const char *file = otx_also_flags_file(values->also[i]);

@@ -107,6 +107,7 @@ read_saved(otx_session *session, job *j)
     options.to = j->request.exemplar_options.to;
     options.receiver = j->request.exemplar_options.receiver;
     options.heal = j->request.map_options.heal;
+    options.place = j->request.map_options.place;
     options.without_figures = !j->request.report;
     options.maps = j->request.exemplar_options.maps;
     options.map_count = j->request.exemplar_options.map_count;

@@ -221,6 +221,7 @@ parse_fields(otx_map_flags *r)
     r->map_options.constraints = r->values->text[OTX_FLAG_CONSTRAINTS];
     r->map_options.follow = r->values->text[OTX_FLAG_FOLLOW];
     r->map_options.along = r->values->text[OTX_FLAG_ALONG];
+    r->map_options.place = r->values->text[OTX_FLAG_PLACE];
     r->map_options.exemplar_class = r->values->text[OTX_FLAG_EXEMPLAR_CLASS];
     if (!text || otx_value_reals(text, 4, r->map_options.generators))
         return true;

@@ -131,7 +131,7 @@ bool
 otx_spool_inputs(otx_flag_values *values)
 {
     static const otx_flag_id files[] = {
-        OTX_FLAG_MASK, OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOR,
+        OTX_FLAG_MASK, OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOR, OTX_FLAG_PLACE,
         OTX_FLAG_COLORCONFIG};
 
     for (int i = 0; i < values->operand_count; ++i)

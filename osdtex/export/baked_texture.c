@@ -25,7 +25,7 @@ otx_baked_texture_is_needed(const otx_mapping *mapping)
 {
     const otx_level *leaf = otx_surface_leaf(mapping->surface);
 
-    return mapping->along ||
+    return mapping->along || mapping->decals ||
            (mapping->lookups &&
             mapping->lookups->layering == OTX_LAYERING_OVER) ||
            (mapping->field &&

@@ -256,6 +256,35 @@ scan_file(scan *s, const char *path, bool is_mtl)
         fclose(file);
 }
 
+/* Every word between quotes and commas that could be a file's: those that have
+ * a dot and a letter. */
+static void
+scan_words(scan *s, const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    size_t length;
+    int c;
+
+    for (bool more = file != NULL; more;)
+    {
+        char name[PATH_MAX];
+        bool dot = false, letter = false;
+
+        for (length = 0; (c = getc(file)) != EOF && !strchr("\",\n\r[]{}", c);)
+        {
+            dot |= c == '.';
+            letter |= (c | 32) >= 'a' && (c | 32) <= 'z';
+            if (length < sizeof name && (length > 0 || c != ' '))
+                name[length++] = (char)c;
+        }
+        if (dot && letter && length < sizeof name)
+            try_name(s, path, name, length);
+        more = c != EOF;
+    }
+    if (file)
+        fclose(file);
+}
+
 otx_status
 otx_references_visit(
     const char *path, void (*visit)(void *user, const char *path), void *user)
@@ -269,6 +298,8 @@ otx_references_visit(
         visit(user, path);
         if (ends_in(path, ".mtl"))
             scan_file(&s, path, true);
+        else if (ends_in(path, ".json") || ends_in(path, ".csv"))
+            scan_words(&s, path);
         else if (is_text(path))
             scan_file(&s, path, false);
     }

@@ -7,6 +7,7 @@
 #ifndef OTX_MAPPING_MAPPING_H
 #define OTX_MAPPING_MAPPING_H
 
+#include "mapping/decals.h"
 #include "mapping/lookups.h"
 #include "mapping/source_field.h"
 #include "math/vec.h"
@@ -49,6 +50,7 @@ typedef struct otx_mapping
     /* [leaf vert_count] the place along the axis of a stack, 0 to 1 [Ray09,
      * sec. 1]; NULL: there is no such axis. */
     const float *along;
+    const otx_decals *decals; /* over all of it; NULL none */
 } otx_mapping;
 
 #endif

@@ -4,7 +4,7 @@
  * are continuous there, and a chart that is torn inside one patch is not. */
 #include "mapping/seam.h"
 
-#include "mapping/show.h"
+#include "mapping/show_decals.h"
 #include "seam/difference.h"
 #include "seam/unit.h"
 
@@ -173,6 +173,20 @@ is_met(const search *s, int32_t edge, int side)
 }
 
 static bool
+decals_go_on(const search *s, int32_t edge)
+{
+    const int32_t *faces = s->leaf->edge_faces + 2 * (size_t)edge;
+    int32_t corners[2][2];
+
+    if (!otx_decals_has(s->show.decals, faces[0]) &&
+        !otx_decals_has(s->show.decals, faces[1]))
+        return true;
+    for (int side = 0; side < 2; ++side)
+        otx_seam_corners(s->leaf, edge, faces[side], corners[side]);
+    return otx_show_decals_go_on(&s->show, faces, corners);
+}
+
+static bool
 is_continuous(
     const search *s, int32_t edge, otx_vec2 sides[2][2],
     const otx_exemplar *from[2])
@@ -181,6 +195,8 @@ is_continuous(
     const int made = otx_show_is_made(&s->show, faces[0]) +
                      otx_show_is_made(&s->show, faces[1]);
 
+    if (!decals_go_on(s, edge))
+        return false;
     /* What was made texel by texel goes on, and meets the rest where it was
      * held to the rest's own UVs. */
     if (made == 2)

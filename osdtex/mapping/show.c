@@ -2,6 +2,7 @@
 #include "mapping/show.h"
 
 #include "image/view.h"
+#include "mapping/show_decals.h"
 
 /* Less light than this that comes through is none. */
 static const double THROUGH_LEAST = 1e-5;
@@ -333,14 +334,15 @@ show_over(
         color[c] = (float)sum[c];
 }
 
-void
-otx_show_color(
+/* What the method made. */
+static void
+color_below(
     const otx_show_view *show, const otx_texture *textures,
     const otx_show_place *place, int32_t exemplar, double share,
     int32_t channels, float *color)
 {
     const int32_t count = otx_show_term_count(show, place->face);
-    const bool layered = otx_show_is_layered(show, place->face);
+    const bool layered = otx_show_is_layered_below(show, place->face);
     const bool is_made = otx_show_is_made(show, place->face);
     otx_show_sum sum = {{0.0}, 0.0};
     made_terms made;
@@ -371,6 +373,17 @@ otx_show_color(
     otx_show_finish(OTX_LAYERING_MEAN, &sum, channels, color);
 }
 
+void
+otx_show_color(
+    const otx_show_view *show, const otx_texture *textures,
+    const otx_show_place *place, int32_t exemplar, double share,
+    int32_t channels, float *color)
+{
+    color_below(show, textures, place, exemplar, share, channels, color);
+    if (!show->carry && otx_decals_has(show->decals, place->face))
+        otx_show_decals_color(show, place, share, channels, color);
+}
+
 static void
 look_up_lab(
     const otx_show_view *show, const otx_show_place *place,
@@ -396,8 +409,8 @@ look_up_lab(
     mix_into(lab, next, b.share, 3);
 }
 
-void
-otx_show_lab(
+static void
+lab_below(
     const otx_show_view *show, const otx_exemplar *exemplars,
     const otx_show_place *place, int32_t exemplar, float lab[3])
 {
@@ -421,11 +434,21 @@ otx_show_lab(
         if (!(term.weight > 0.0))
             continue;
         look_up_lab(show, place, from, texel, lab);
-        if (!otx_show_is_layered(show, place->face))
+        if (!otx_show_is_layered_below(show, place->face))
             return;
         otx_show_add(
             layering, lab, 3, term.weight * masked(show, place, &term, 0.0),
             1.0, &sum);
     }
     otx_show_finish(layering, &sum, 3, lab);
+}
+
+void
+otx_show_lab(
+    const otx_show_view *show, const otx_exemplar *exemplars,
+    const otx_show_place *place, int32_t exemplar, float lab[3])
+{
+    lab_below(show, exemplars, place, exemplar, lab);
+    if (otx_decals_has(show->decals, place->face))
+        otx_show_decals_lab(show, place, lab);
 }

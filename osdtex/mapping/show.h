@@ -5,7 +5,8 @@
  * exemplar of its patch, or where it has lookups (mapping/lookups.h) all of
  * them together: their mean, or one over the other, in premultiplied
  * scene-linear colour; where it was made texel by texel
- * (mapping/source_field.h) the mean of the texels around.
+ * (mapping/source_field.h) the mean of the texels around. Over all of it lie
+ * decals (mapping/decals.h).
  * See docs/notes/show.md. */
 #ifndef OTX_MAPPING_SHOW_H
 #define OTX_MAPPING_SHOW_H
@@ -51,6 +52,7 @@ typedef struct otx_show_view
     /* Of stacks, by the vertices of corners; NULL both. */
     const float *along;        /* [vert_count] */
     const int32_t *face_verts; /* [corner_count] */
+    const otx_decals *decals;  /* over all of it; NULL none */
 } otx_show_view;
 
 static inline otx_show_view
@@ -60,7 +62,7 @@ otx_show_of(const otx_mapping *mapping)
 
     return (otx_show_view){
         mapping->uvs,   leaf->face_first, mapping->lookups, NULL,
-        mapping->field, mapping->along,   leaf->face_verts};
+        mapping->field, mapping->along,   leaf->face_verts, mapping->decals};
 }
 
 /* Whether a face shows what was made texel by texel. */
@@ -79,12 +81,21 @@ otx_show_has_lookups(const otx_show_view *show, int32_t face)
     return l && l->first[face + 1] > l->first[face];
 }
 
+/* Whether what a method made of a face is more than what the face's own UVs
+ * look up in one picture. */
+static inline bool
+otx_show_is_layered_below(const otx_show_view *show, int32_t face)
+{
+    return show->along || otx_show_has_lookups(show, face) ||
+           otx_show_is_made(show, face);
+}
+
 /* Whether a face shows anything but what its own UVs look up in one picture. */
 static inline bool
 otx_show_is_layered(const otx_show_view *show, int32_t face)
 {
-    return show->along || otx_show_has_lookups(show, face) ||
-           otx_show_is_made(show, face);
+    return otx_show_is_layered_below(show, face) ||
+           otx_decals_has(show->decals, face);
 }
 
 static inline otx_layering

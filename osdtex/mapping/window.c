@@ -591,6 +591,7 @@ otx_window_measure(
         .texels_per_unit = otx_seam_texels_per_unit(mapping, exemplars),
     };
 
+    l.show.decals = NULL; /* they are not meant to look like the exemplar */
     *out = (otx_window_figures){0};
 
     const otx_status status = measure(run, &l, seams, count, out);

@@ -14,10 +14,10 @@ height_at(const otx_scene *scene, int32_t face, int32_t k)
     static const double dx[3] = {-0.5, 0.5, 0.0}, dy[3] = {-0.5, 0.0, 0.5};
     const otx_map_textures *maps = scene->maps;
     const otx_show_view show = {
-        scene->uvs,       scene->face_first,
-        scene->lookups,   maps->carry.surface ? &maps->carry : NULL,
-        scene->field,     scene->along,
-        scene->face_verts};
+        scene->uvs,        scene->face_first,
+        scene->lookups,    maps->carry.surface ? &maps->carry : NULL,
+        scene->field,      scene->along,
+        scene->face_verts, NULL};
     const int32_t first = scene->face_first[face];
     const int32_t size = scene->face_first[face + 1] - first;
     const int32_t corners[3] = {

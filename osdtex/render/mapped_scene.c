@@ -75,6 +75,7 @@ otx_scene_from_mapping(
         .lookups = mapping->lookups,
         .field = mapping->field,
         .along = mapping->along,
+        .decals = mapping->decals,
         .vert_normals = surface->normals,
         .texture_count = count,
         .textures = textures,

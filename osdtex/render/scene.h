@@ -29,7 +29,8 @@ typedef struct otx_scene
     const float *uvs; /* [corner_count * 2], NULL: no texture is shown */
     const otx_lookups *lookups; /* of faces that show several; NULL nowhere */
     const otx_source_field *field; /* of faces made by texels; NULL nowhere */
-    const float *along; /* [vert_count] in stacks; NULL: there is none */
+    const float *along;       /* [vert_count] in stacks; NULL: there is none */
+    const otx_decals *decals; /* over all of it; NULL none */
     /* Smooth normals, any length: per corner before per vertex; with neither,
      * faces are flat. */
     const float *corner_normals; /* [corner_count * 3] or NULL */

@@ -212,8 +212,8 @@ texture_color(const otx_shade *shade, const otx_hit *hit, float rgb[3])
 {
     const otx_scene *scene = shade->scene;
     const otx_show_view show = {
-        scene->uvs,   scene->face_first, scene->lookups,   NULL,
-        scene->field, scene->along,      scene->face_verts};
+        scene->uvs,   scene->face_first, scene->lookups,    NULL,
+        scene->field, scene->along,      scene->face_verts, scene->decals};
     const int32_t t = texture_of(scene, hit->face);
     const double share = 1.0 / shade->options->samples;
     float color[OTX_IMAGE_MAX_CHANNELS];
@@ -493,10 +493,10 @@ material_at(
         return (material){normal, CLAY_ROUGHNESS, 0.0, 1.0};
 
     const otx_show_view show = {
-        scene->uvs,       scene->face_first,
-        scene->lookups,   maps->carry.surface ? &maps->carry : NULL,
-        scene->field,     scene->along,
-        scene->face_verts};
+        scene->uvs,        scene->face_first,
+        scene->lookups,    maps->carry.surface ? &maps->carry : NULL,
+        scene->field,      scene->along,
+        scene->face_verts, NULL};
     const footprint f = footprint_of(shade, hit);
     const otx_show_place place = {
         hit->face, hit->corners, hit->weights, f.dx, f.dy};

@@ -23,7 +23,7 @@ CHANGED = {
     "constraints": "k.json", "follow": "up", "exemplar-class": "isotropic",
     "generators": "8,0,0,8", "tile-level": "1", "bake": None, "for": "web", "uvs": "atlas",
     "resolution": "64", "texels-per-unit": "8", "margin": "8",
-    "seam-blend": "2", "heal": "8", "along": "x", "extra": "uv", "preview-png": None,
+    "seam-blend": "2", "heal": "8", "along": "x", "place": "p.json", "extra": "uv", "preview-png": None,
     "scheme": "bilinear", "boundary": "edgeOnly", "fvar": "all",
     "from": "Linear Rec.709", "to": "ACEScg", "match-space": "sRGB",
     "match-in": "lab", "wrap": "no", "tileable": "make", "show": "uv",
