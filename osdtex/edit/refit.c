@@ -199,6 +199,7 @@ copy(const part *p, otx_run *run, otx_mapping *out)
         .guide = p->refit->job->request->guide,
         .lattice = from->lattice,
         .along = from->along,
+        .decals = from->decals,
     };
     OTX_TRY(otx_run_ok(run));
     memcpy(out->uvs, from->uvs, 2 * corners * sizeof *out->uvs);
