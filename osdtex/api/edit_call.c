@@ -4,7 +4,7 @@
 #include "api/call.h"
 #include "api/exemplar_names.h"
 #include "api/map_input.h"
-#include "api/mapping_handle.h"
+#include "api/mapping_info.h"
 #include "edit/apply.h"
 #include "mapping/mapping_check.h"
 
@@ -226,7 +226,7 @@ edit(
     OTX_TRY(begin(run, mapping, out));
     OTX_TRY(otx_edit_call_apply(
         run, all, last_edit(mapping->request.constraints) + 1, *out));
-    (*out)->info = otx_mapping_handle_info(*out);
+    (*out)->info = otx_mapping_info_of(*out);
     return OSDTEX_OK;
 }
 

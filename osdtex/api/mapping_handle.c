@@ -6,6 +6,7 @@
 #include "api/keep_call.h"
 #include "api/map_input.h"
 #include "api/map_resolve.h"
+#include "api/mapping_info.h"
 #include "api/material_axis.h"
 #include "api/method_settings.h"
 #include "api/place_call.h"
@@ -37,22 +38,6 @@ choose_method(otx_run *run, const char *name, osdtex_mapping *handle)
     return name && strcmp(name, "auto") == 0
                ? otx_method_choose(&job, &handle->method)
                : otx_resolve_method(run, name, &handle->method);
-}
-
-osdtex_mapping_info
-otx_mapping_handle_info(const osdtex_mapping *handle)
-{
-    return (osdtex_mapping_info){
-        .method = handle->method->name,
-        .scale = handle->mapping.scale,
-        .face_count = handle->surface->info.face_count,
-        .corner_count = handle->surface->info.corner_count,
-        .uvs = handle->mapping.uvs,
-        .face_patch = handle->mapping.face_patch,
-        .patch_count = handle->mapping.patch_count,
-        .exemplar_count = handle->source_count,
-        .patch_exemplar = handle->mapping.patch_exemplar,
-    };
 }
 
 /* The host's surface, or one that is refined for the exemplar's texels and
@@ -148,7 +133,7 @@ map(otx_call *call, const osdtex_cage *cage, const osdtex_exemplar *exemplar,
     run->seed = ours.seed;
     OTX_TRY(lay(run, &ours, asked, handle));
     OTX_TRY(otx_place_call(call, ours.place, handle));
-    handle->info = otx_mapping_handle_info(handle);
+    handle->info = otx_mapping_info_of(handle);
     *out = handle;
     return OSDTEX_OK;
 }
