@@ -1,6 +1,5 @@
 /* cover.c -- which patch each face shows, and at which UVs. */
-#include "patch/given_patches.h"
-#include "patch/mosaic.h"
+#include "patch/cover.h"
 
 otx_status
 otx_cover_create(const otx_mosaic_job *job, otx_cover *out)
@@ -21,8 +20,6 @@ otx_cover_create(const otx_mosaic_job *job, otx_cover *out)
         out->face_patch[f] = -1;
         out->total_area += job->leaves.areas[f];
     }
-    if (job->given)
-        otx_given_take(job, out);
     return OSDTEX_OK;
 }
 

@@ -19,7 +19,7 @@ typedef struct otx_cover
     double total_area;
 } otx_cover;
 
-/* Nothing is textured but what is given. MEMORY. */
+/* Nothing is textured. MEMORY. */
 otx_status otx_cover_create(const otx_mosaic_job *job, otx_cover *out);
 
 /* Index of the exemplar that a patch is from. */

@@ -2,6 +2,7 @@
 #include "patch/mosaic.h"
 
 #include "patch/forest_check.h"
+#include "patch/given_patches.h"
 #include "patch/straighten.h"
 #include "patch/unfold.h"
 
@@ -57,6 +58,8 @@ otx_mosaic_begin(otx_mosaic *m, const otx_guide *guides)
     OTX_TRY(otx_dual_build(
         job->run, job->surface, job->surface->level_count - 1, &job->leaves));
     OTX_TRY(otx_cover_create(job, &m->cover));
+    if (job->given)
+        otx_given_take(job, &m->cover);
     OTX_TRY(make_forest(m));
     OTX_TRY(otx_supply_prepare(m));
     OTX_TRY(otx_forest_start(m));
