@@ -168,8 +168,7 @@ otx_refill_choose(otx_material *m)
     otx_note(
         m->job->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
         "%d of %d faces hold a dislocation, %d have been cancelled; %.1f %% of "
-        "the area is farther "
-        "than a cell from any, %.1f %% is covered by patches",
+        "the area is farther than a cell from any, patches cover %.1f %%",
         (int)m->solved.phase.defect_count,
         (int)m->solved.connection.level->face_count,
         (int)m->solved.phase.cancelled, 100.0 * m->tally.clean_share,
