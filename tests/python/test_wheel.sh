@@ -36,5 +36,5 @@ END
 /usr/bin/python3 "$work/use.py" "$work/there"
 # And what is installed beside the library.
 module=$(dirname "$(find "$work/prefix" -name '_osdtex*.so')")
-test -s "$module/py.typed"
+test -e "$module/py.typed"
 /usr/bin/python3 "$work/use.py" "$(dirname "$module")"
