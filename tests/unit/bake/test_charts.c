@@ -91,7 +91,8 @@ faces_lie_on_their_tile(void **state)
                     assert_true(at >= rim && at <= 1.0 - rim);
                 }
         }
-        assert_true(use > 0.4 && use < 1.0);
+        /* A chart alone uses what its outline lets it. */
+        assert_true(use > (i == 2 ? 0.3 : 0.45) && use < 1.0);
         test_run_destroy(run);
     }
 }
