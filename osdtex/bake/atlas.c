@@ -175,6 +175,9 @@ settle(packing *p, const otx_atlas_options *options, otx_atlas *out)
     const bool free = options->margin == 0;
     int32_t margin = free ? AUTO_MARGIN_MAX : options->margin;
 
+    /* As otx_atlas_check has it of margins that are asked for. */
+    while (free && margin > OTX_ATLAS_MARGIN_MIN && 4 * margin > p->side)
+        margin /= 2;
     for (;;)
     {
         out->margin = margin;

@@ -288,6 +288,38 @@ what_cannot_be_packed_is_refused(void **state)
     test_run_destroy(run);
 }
 
+/* A margin that is not asked for leaves room for blocks. */
+static void
+small_tiles_hold_blocks(void **state)
+{
+    static const int32_t sides[] = {16, 24, 40, 64};
+    static const float points[] = {
+        0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0, 3, 1, 0};
+    static const int32_t verts[] = {0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6};
+    otx_run *run = test_run_create();
+    const otx_cage_input in = mesh_input(run, points, 8, verts, 3, 4);
+    const otx_cage cage = mesh_build(run, &in, NULL);
+    const otx_surface surface = mesh_refine(run, &cage, 1);
+
+    (void)state;
+    for (size_t i = 0; i < sizeof sides / sizeof *sides; ++i)
+    {
+        const otx_atlas_options options = {sides[i], 0, 0.0};
+        otx_atlas atlas;
+
+        assert_int_equal(
+            otx_atlas_pack(run, &surface, &options, &atlas), OSDTEX_OK);
+        for (int32_t f = 0; f < cage.face_count; ++f)
+        {
+            const float *uv = atlas.uvs + 8 * f;
+
+            assert_true(uv[0] > 0.0f && uv[1] > 0.0f);
+            assert_true(uv[4] > uv[0] && uv[5] > uv[1]);
+        }
+    }
+    test_run_destroy(run);
+}
+
 int
 main(void)
 {
@@ -298,6 +330,7 @@ main(void)
         cmocka_unit_test(what_is_left_open_is_chosen),
         cmocka_unit_test(more_faces_than_a_tile_holds_are_told),
         cmocka_unit_test(what_cannot_be_packed_is_refused),
+        cmocka_unit_test(small_tiles_hold_blocks),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
