@@ -21,6 +21,7 @@ take_subset(otx_run *run, const uint8_t *area, otx_edit_place *p)
     const otx_level *leaf = otx_surface_leaf(p->surface);
     uint8_t *verts = OTX_ZNEW(run->scratch, uint8_t, leaf->vert_count);
     uint8_t *taken = OTX_ZNEW(run->scratch, uint8_t, leaf->face_count);
+    otx_subset *subset = OTX_NEW(run->arena, otx_subset, 1);
 
     OTX_TRY(otx_run_ok(run));
     for (int32_t f = 0; f < leaf->face_count; ++f)
@@ -30,7 +31,8 @@ take_subset(otx_run *run, const uint8_t *area, otx_edit_place *p)
     for (int32_t f = 0; f < leaf->face_count; ++f)
         for (int32_t c = leaf->face_first[f]; c < leaf->face_first[f + 1]; ++c)
             taken[f] |= verts[leaf->face_verts[c]];
-    return otx_subset_take(run, p->surface, taken, &p->subset);
+    p->subset = subset;
+    return otx_subset_take(run, p->surface, taken, subset);
 }
 
 otx_status
@@ -43,20 +45,21 @@ otx_edit_place_make(
 
     *out = (otx_edit_place){.surface = surface, .set = set, .edit = edit};
     OTX_TRY(take_subset(run, area, out));
-    level = otx_surface_leaf(&out->subset.surface);
+    level = otx_surface_leaf(&out->subset->surface);
     out->faces = OTX_NEW(run->arena, uint8_t, level->face_count);
     out->verts = OTX_NEW(run->arena, uint8_t, level->vert_count);
     OTX_TRY(otx_run_ok(run));
     memset(out->verts, 1, (size_t)level->vert_count);
     for (int32_t f = 0; f < level->face_count; ++f)
     {
-        out->faces[f] = area[out->subset.faces[f]];
+        out->faces[f] = area[out->subset->faces[f]];
         for (int32_t c = level->face_first[f];
              !out->faces[f] && c < level->face_first[f + 1]; ++c)
             out->verts[level->face_verts[c]] = 0;
     }
     otx_arena_release(run->scratch, mark);
-    return otx_connection_build(run, &out->subset.surface, 0, &out->connection);
+    return otx_connection_build(
+        run, &out->subset->surface, 0, &out->connection);
 }
 
 otx_edit_asks
@@ -91,10 +94,10 @@ hold(
     const double *o = p->surface->cage->origin;
     const otx_vec3 at = otx_vec3_sub(item->point, (otx_vec3){o[0], o[1], o[2]});
     const double near =
-        fmax(item->radius, 2.0 * p->subset.surface.mean_edge_length);
+        fmax(item->radius, 2.0 * p->subset->surface.mean_edge_length);
     int32_t all;
 
-    OTX_TRY(otx_area_hold(run, &p->subset.surface, item, faces, &all));
+    OTX_TRY(otx_area_hold(run, &p->subset->surface, item, faces, &all));
     *count = 0;
     for (int32_t i = 0; i < all; ++i)
     {
@@ -205,7 +208,7 @@ read_guide(
     otx_run *run, const otx_edit_place *p, const otx_guide *guide,
     otx_direction *out)
 {
-    const int32_t count = otx_surface_leaf(&p->subset.surface)->face_count;
+    const int32_t count = otx_surface_leaf(&p->subset->surface)->face_count;
 
     *out = (otx_direction){
         &p->connection, guide->symmetry, OTX_NEW(run->arena, otx_vec2, count)};
@@ -214,7 +217,7 @@ read_guide(
         out->powers[f] = otx_direction_unit(
             otx_direction_power(
                 otx_connection_project(
-                    &p->connection, f, guide->directions[p->subset.faces[f]]),
+                    &p->connection, f, guide->directions[p->subset->faces[f]]),
                 guide->symmetry),
             (otx_vec2){1, 0});
     return OSDTEX_OK;
@@ -226,7 +229,7 @@ otx_edit_guide(
     const otx_guide **out)
 {
     const size_t faces = (size_t)otx_surface_leaf(p->surface)->face_count;
-    const int32_t count = otx_surface_leaf(&p->subset.surface)->face_count;
+    const int32_t count = otx_surface_leaf(&p->subset->surface)->face_count;
     otx_vec3 *directions = OTX_NEW(run->arena, otx_vec3, faces);
     otx_guide *guide = OTX_NEW(run->arena, otx_guide, 1);
     otx_direction_request request = {.symmetry = from->symmetry};
@@ -240,7 +243,7 @@ otx_edit_guide(
     memcpy(directions, from->directions, faces * sizeof *directions);
     for (int32_t f = 0; f < count; ++f)
         if (p->faces[f])
-            directions[p->subset.faces[f]] = otx_direction_vector(&field, f);
+            directions[p->subset->faces[f]] = otx_direction_vector(&field, f);
     *guide = *from;
     guide->directions = directions;
     *out = guide;
@@ -268,7 +271,7 @@ lock_item(
     otx_scale_lock *locks, int32_t *count)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
-    const otx_level *level = otx_surface_leaf(&p->subset.surface);
+    const otx_level *level = otx_surface_leaf(&p->subset->surface);
     int32_t *faces, held;
 
     OTX_TRY(otx_constraint_check(run, p->set, p->surface->cage, index));
@@ -326,7 +329,7 @@ edit_values(
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     const int32_t all = otx_surface_leaf(p->surface)->vert_count;
-    const int32_t count = otx_surface_leaf(&p->subset.surface)->vert_count;
+    const int32_t count = otx_surface_leaf(&p->subset->surface)->vert_count;
     const bool is_scale = kind == OTX_CONSTRAINT_SCALE;
     float *made = OTX_NEW(run->arena, float, all);
     double *values = OTX_NEW(run->scratch, double, count);
@@ -336,14 +339,14 @@ edit_values(
         made[v] = from ? from[v] : nothing;
     for (int32_t v = 0; v < count; ++v)
     {
-        const double was = made[p->subset.verts[v]];
+        const double was = made[p->subset->verts[v]];
 
         values[v] = is_scale ? log(was) : was;
     }
     OTX_TRY(solve_values(run, p, kind, values));
     for (int32_t v = 0; v < count; ++v)
         if (p->verts[v])
-            made[p->subset.verts[v]] =
+            made[p->subset->verts[v]] =
                 (float)(is_scale ? exp(values[v]) : values[v]);
     otx_arena_release(run->scratch, mark);
     *out = made;

@@ -15,7 +15,7 @@ typedef struct otx_edit_place
     const otx_surface *surface;
     const otx_constraint_set *set; /* all that has been asked, in its order */
     int32_t edit;                  /* the one at hand, and the last */
-    otx_subset subset;             /* the area and a ring around it */
+    const otx_subset *subset;      /* the area and a ring around it */
     otx_connection connection;     /* of the subset */
     uint8_t *faces;                /* [subset face_count] 1: of the area */
     uint8_t *verts; /* [subset vert_count] 1: of faces of the area alone */
