@@ -300,12 +300,13 @@ tell_snapshot(const otx_desk *desk)
     if (!s)
         return json_null();
     return json_pack(
-        "{s:I, s:I, s:I, s:i, s:i, s:f, s:b, s:o}", "serial",
+        "{s:I, s:I, s:I, s:i, s:i, s:f, s:b, s:o, s:o}", "serial",
         (json_int_t)s->serial, "surface",
         (json_int_t)s->outcome->surface_serial, "revision",
         (json_int_t)s->revision, "exemplar", s->outcome->exemplar, "exemplars",
         (int)osdtex_mapping_describe(s->outcome->mapping)->exemplar_count,
-        "seconds", s->seconds, "is_edit", s->is_edit, "figures",
+        "seconds", s->seconds, "is_edit", s->is_edit, "facts",
+        json_deep_copy(s->facts), "figures",
         has_figures ? json_deep_copy(desk->work.figures) : json_null());
 }
 

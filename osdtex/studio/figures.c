@@ -52,12 +52,22 @@ worst_places(const otx_snapshot *s)
 }
 
 json_t *
-otx_figures_of(osdtex_context *context, const otx_snapshot *s)
+otx_figures_facts(const otx_snapshot *s)
 {
     const osdtex_mapping_info *m = osdtex_mapping_describe(s->outcome->mapping);
-    json_t *rows = report_figures(context, s->outcome->mapping);
     const osdtex_exemplar_info *e =
         osdtex_exemplar_describe(s->outcome->exemplars[0]);
+
+    return json_pack(
+        "{s:i, s:i, s:s, s:f, s:i, s:o}", "faces", (int)m->face_count,
+        "patches", (int)m->patch_count, "method", m->method, "scale", m->scale,
+        "slices", (int)e->slices, "places", worst_places(s));
+}
+
+json_t *
+otx_figures_of(osdtex_context *context, const otx_snapshot *s)
+{
+    json_t *rows = report_figures(context, s->outcome->mapping);
     osdtex_exemplar_structure structure;
 
     if (!rows)
@@ -69,9 +79,6 @@ otx_figures_of(osdtex_context *context, const otx_snapshot *s)
         return NULL;
     }
     return json_pack(
-        "{s:i, s:i, s:s, s:f, s:s, s:i, s:i, s:o, s:o}", "faces",
-        (int)m->face_count, "patches", (int)m->patch_count, "method", m->method,
-        "scale", m->scale, "class", structure.name, "symmetry",
-        (int)structure.symmetry, "slices", (int)e->slices, "rows", rows,
-        "places", worst_places(s));
+        "{s:s, s:i, s:o}", "class", structure.name, "symmetry",
+        (int)structure.symmetry, "rows", rows);
 }

@@ -58,6 +58,7 @@ otx_snapshot_release(otx_snapshot *s)
 {
     if (!s || atomic_fetch_sub(&s->holders, 1) > 1)
         return;
+    json_decref(s->facts);
     otx_outcome_release(s->outcome);
     free(s);
 }

@@ -38,7 +38,8 @@ typedef struct otx_snapshot
     int64_t serial;
     int64_t revision; /* of the recipe that it is of */
     double seconds;
-    bool is_edit; /* it was made from another mapping */
+    bool is_edit;  /* it was made from another mapping */
+    json_t *facts; /* what the page is told with the picture; NULL none */
     otx_outcome *outcome;
 } otx_snapshot;
 

@@ -251,7 +251,14 @@ map_newest(otx_studio_worker *w, json_t *recipe)
     bool is_edit;
     osdtex_status status = map_recipe(w, recipe, &outcome, &is_edit);
 
-    if (status == OSDTEX_OK && !(made = otx_snapshot_make(outcome)))
+    if (status == OSDTEX_OK)
+        made = otx_snapshot_make(outcome);
+    if (made && !(made->facts = otx_figures_facts(made)))
+    {
+        otx_snapshot_release(made);
+        made = NULL;
+    }
+    if (status == OSDTEX_OK && !made)
         status = OSDTEX_ERROR_MEMORY;
     otx_outcome_release(outcome);
     if (made)

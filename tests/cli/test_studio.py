@@ -223,6 +223,23 @@ class StudioTest(ProgramTest):
             {"constraints": []})
         self.assertEqual(studio.end()[0], 0)
 
+    def test_facts_come_with_the_picture(self):
+        """What tools of the page depend on never waits for the report."""
+        studio = self.studio("--set", "relax=off")
+        for revision in (1, 2):
+            shown = studio.shown(revision)["snapshot"]
+            facts = shown["facts"]
+            self.assertEqual(
+                set(facts), {"method", "faces", "patches", "scale", "slices",
+                             "places"})
+            self.assertEqual(facts["method"], "hierarchical")
+            self.assertEqual(facts["scale"], 1)
+            self.assertEqual(facts["slices"], 0)
+            self.assertGreater(facts["faces"], facts["patches"])
+            self.assertGreater(len(facts["places"]), 3)
+            self.assertFalse(set(facts) & set(shown["figures"] or {}))
+            self.assertEqual(studio.comb(COMB)[0], 200)
+
     def test_two_pages(self):
         """What one did while the other looked elsewhere is not undone unseen."""
         studio = self.studio()

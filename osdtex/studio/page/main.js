@@ -40,7 +40,7 @@ async function change(edit) {
 
 // Whether gestures can change the texture around themselves alone: as edits of
 // what is there. Some methods lay nothing that could be edited.
-const canEdit = () => ['hierarchical', 'material'].includes(state?.snapshot?.figures?.method);
+const canEdit = () => ['hierarchical', 'material'].includes(state?.snapshot?.facts.method);
 const isLocal = () => page.tool === 'redo' || (page.local && canEdit());
 
 // The same constraints as the next edit, which reaches so far and no farther.
@@ -80,7 +80,7 @@ async function load() {
   if (!s || view.mapping?.serial === s.serial) return;
   if (view.surface?.serial !== s.surface) view.setSurface(await readSurface());
   const mapping = await readMapping();
-  if (mapping.surface !== view.surface.serial) return; // a newer one comes
+  if (mapping.surface !== view.surface.serial || mapping.serial !== s.serial) return; // a newer one comes
   if (view.exemplar !== s.exemplar) {
     const all = [];
     for (let k = 0; k < mapping.exemplars; ++k) all.push(await readTexture(k));
@@ -140,7 +140,7 @@ function told() {
   $('command').textContent = s.command;
   $('stage').dataset.busy = s.busy;
   // Tools for which there is nothing to choose are not in the way.
-  tool('material').hidden = !(shown?.figures?.slices > 0);
+  tool('material').hidden = !(shown?.facts.slices > 0);
   tool('mask').hidden = !(shown?.exemplars > 1);
   tool('redo').hidden = !canEdit();
   if (page.couldEdit !== canEdit()) { page.couldEdit = canEdit(); showOptions(); }
@@ -158,15 +158,14 @@ function fillChoices(s) {
   choose.value = s.recipe.exemplar;
   choose.hidden = s.exemplars.length < 2;
   if (document.activeElement !== $('width'))
-    $('width').value = s.recipe.scale || (s.snapshot?.figures ? Number(s.snapshot.figures.scale.toPrecision(4)) : '');
+    $('width').value = s.recipe.scale || (s.snapshot ? Number(s.snapshot.facts.scale.toPrecision(4)) : '');
 }
 
 function tellNumbers(shown) {
-  const f = shown?.figures;
   if (!shown) return;
-  const rows = [];
+  const f = shown.figures, { faces, patches, method } = shown.facts;
+  const rows = [row('Faces', short(faces)), row('Patches', short(patches)), row('Method', method)];
   if (f) {
-    rows.push(row('Faces', short(f.faces)), row('Patches', short(f.patches)), row('Method', f.method));
     for (const r of f.rows)
       rows.push(row(NAMES[r.key][0], NAMES[r.key][1](r.value), r.sentence));
     const none = f.class === 'isotropic';
@@ -195,10 +194,11 @@ function tellGestures() {
 
 // Only where they have changed, so that the list is not scrolled away.
 function tellPlaces(shown) {
-  const places = shown?.figures?.places ?? [];
-  if (page.placesOf === shown?.serial && page.places.length === places.length) return;
+  const places = shown?.facts.places ?? [];
+  if (page.placesOf === shown?.serial) return;
   page.places = places;
   page.placesOf = shown?.serial;
+  page.place = Math.min(page.place, places.length - 1);
   $('places').replaceChildren(...places.map((p, i) => {
     const item = document.createElement('li'), go = document.createElement('button');
     go.textContent = `${i + 1}. ${short(p.length)} units, ${short(100 * p.difference)} %`;
