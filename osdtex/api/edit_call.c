@@ -12,6 +12,11 @@
 
 static const char STAGE[] = "edit";
 
+enum
+{
+    EDITS_MOST = 1000000 /* numbers of edits: sums of two are numbers, too */
+};
+
 /* ---- sets of constraints ------------------------------------------------ */
 
 static int32_t
@@ -37,6 +42,19 @@ next_edit(const otx_constraint_set *set, int32_t from)
     return next;
 }
 
+static otx_status
+check_number(otx_run *run, const otx_constraint_set *set, int32_t i, int64_t n)
+{
+    if (n <= EDITS_MOST)
+        return OSDTEX_OK;
+    return otx_fail(
+        run, OSDTEX_ERROR_ARGUMENT, STAGE,
+        (otx_where){set->path, 0, set->items[i].face, -1},
+        "constraint %d would be edit %lld, and edits are numbered from 1 to "
+        "%d; give it a lower number",
+        (int)i + 1, (long long)n, EDITS_MOST);
+}
+
 otx_status
 otx_edit_call_base(
     otx_run *run, const otx_constraint_set *set, const otx_constraint_set **out)
@@ -47,6 +65,8 @@ otx_edit_call_base(
     *out = set;
     if (last_edit(set) == 0)
         return OSDTEX_OK;
+    for (int32_t i = 0; i < set->count; ++i)
+        OTX_TRY(check_number(run, set, i, set->items[i].edit));
     base = OTX_NEW(run->arena, otx_constraint_set, 1);
     items = OTX_NEW(run->arena, otx_constraint, set->count);
     OTX_TRY(otx_run_ok(run));
@@ -103,9 +123,12 @@ join_sets(
     for (int32_t i = 0; i < asked->count; ++i)
     {
         otx_constraint *item = &items[(*out)->count++];
+        const int64_t edit = asked->items[i].edit;
+        const int64_t number = (int64_t)last + (edit > 0 ? edit : 1);
 
+        OTX_TRY(check_number(run, asked, i, number));
         *item = asked->items[i];
-        item->edit = last + (item->edit > 0 ? item->edit : 1);
+        item->edit = (int32_t)number;
         if (item->reach == 0.0)
             item->reach = reach;
     }

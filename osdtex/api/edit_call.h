@@ -5,7 +5,8 @@
 #include "api/handle.h"
 
 /* The constraints of a set that are asked for when a mapping is made, without
- * those of edits. `*out` is `set` itself where it has none. MEMORY. */
+ * those of edits. `*out` is `set` itself where it has none. ARGUMENT where an
+ * edit has so large a number that none could follow; MEMORY. */
 otx_status otx_edit_call_base(
     otx_run *run, const otx_constraint_set *set,
     const otx_constraint_set **out);

@@ -133,6 +133,28 @@ class Edit(ProgramTest):
             self.run_map(CAGES / "sphere.obj", EXEMPLAR, "--keep", source,
                          name="other.obj"), 1, "other faces")
 
+    def test_numbers_too_large_are_refused(self):
+        """The next edit has a number, too."""
+        source = self.save()
+        for number in (1000001, 2 ** 31 - 1):
+            item = {"face": 3, "redo": 1, "reach": 0.2, "edit": number}
+            for run in (
+                    lambda path: self.run_program(
+                        "edit", source, "--constraints", path, "-o",
+                        self.folder / "n.osdtex"),
+                    lambda path: self.run_map(
+                        CAGE, EXEMPLAR, *HOW, "--constraints", path,
+                        name="n.obj")):
+                self.assert_error(
+                    run(self.constraints(item)), 1, "from 1 to 1000000")
+        last = self.edit(
+            source, "--constraints",
+            self.constraints({**item, "edit": 1000000}), name="last.osdtex")
+        self.assert_error(self.run_program(
+            "edit", last, "-o", self.folder / "n.osdtex", "--redo", "9"), 1,
+            "from 1 to 1000000")
+        self.assertFalse((self.folder / "n.osdtex").exists())
+
     def test_what_is_wrong_is_said(self):
         source = self.save()
         new = self.folder / "n.osdtex"
