@@ -11,16 +11,26 @@
 
 /* ---- which edges --------------------------------------------------------- */
 
+/* How many of its faces are of the surface, and no holes. */
+static int
+solid_faces(const otx_level *level, int32_t edge)
+{
+    int count = 0;
+
+    for (size_t k = 0; k < 2; ++k)
+    {
+        const int32_t face = level->edge_faces[2 * (size_t)edge + k];
+
+        count += face >= 0 && !level->face_hole[face];
+    }
+    return count;
+}
+
 static void
 mark_open(const otx_level *level, uint8_t *out)
 {
     for (int32_t e = 0; e < level->edge_count; ++e)
-    {
-        const int32_t *faces = level->edge_faces + 2 * (size_t)e;
-
-        out[e] = faces[1] < 0 ||
-                 level->face_hole[faces[0]] != level->face_hole[faces[1]];
-    }
+        out[e] = solid_faces(level, e) == 1;
 }
 
 /* Those of the cage: its corners are those of level 0. */
@@ -93,6 +103,8 @@ mark_creases(otx_run *run, const otx_surface *surface, uint8_t *out)
         halve(&surface->levels[k], to, out, born_of, next);
         memcpy(out, next, (size_t)to->edge_count);
     }
+    for (int32_t e = 0; e < leaf->edge_count; ++e)
+        out[e] = out[e] && solid_faces(leaf, e) > 0;
     return OSDTEX_OK;
 }
 
@@ -120,7 +132,7 @@ otx_edge_mark(
 typedef struct march
 {
     const otx_surface *surface;
-    const int32_t *first, *faces; /* around each vertex */
+    const int32_t *first, *faces; /* around each vertex, without holes */
     otx_pqueue queue;
     double *out;
 } march;
@@ -133,12 +145,14 @@ list_faces(otx_run *run, const otx_level *level, march *m)
     int32_t *faces = OTX_NEW(run->scratch, int32_t, level->corner_count);
 
     OTX_TRY(otx_run_ok(run));
-    for (int32_t c = 0; c < level->corner_count; ++c)
-        otx_csr_count(first, level->face_verts[c], 1);
+    for (int32_t f = 0; f < level->face_count; ++f)
+        for (int32_t c = level->face_first[f];
+             c < level->face_first[f + 1] && !level->face_hole[f]; ++c)
+            otx_csr_count(first, level->face_verts[c], 1);
     otx_csr_sum(first, level->vert_count);
     for (int32_t f = 0; f < level->face_count; ++f)
-        for (int32_t c = level->face_first[f]; c < level->face_first[f + 1];
-             ++c)
+        for (int32_t c = level->face_first[f];
+             c < level->face_first[f + 1] && !level->face_hole[f]; ++c)
             faces[otx_csr_place(first, level->face_verts[c])] = f;
     m->first = first;
     m->faces = faces;

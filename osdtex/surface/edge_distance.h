@@ -8,7 +8,8 @@
 typedef enum otx_edge_kind
 {
     OTX_EDGE_BOUNDARY, /* one face, or one beside a hole */
-    OTX_EDGE_CREASE    /* lies on an edge of the cage with a sharpness */
+    OTX_EDGE_CREASE    /* lies on an edge of the cage with a sharpness, and not
+                        * between holes alone */
 } otx_edge_kind;
 
 /* Marks the edges of the leaf level of a kind.
@@ -22,7 +23,7 @@ otx_status otx_edge_mark(
     int32_t *count);
 
 /* How far each leaf vertex is from a marked edge, along edges and across the
- * diagonals of faces; INFINITY where there is no way.
+ * diagonals of faces, but not over holes; INFINITY where there is no way.
  *
  *   marked  [leaf edge_count]
  *   out     [leaf vert_count] scene units

@@ -78,6 +78,43 @@ creases_are_followed_through_levels(void **state)
     test_run_destroy(run);
 }
 
+/* A slot of holes across the square but for its end: ways go around it by
+ * (7, 5), and a crease amid the holes is none. */
+static void
+holes_are_not_of_the_surface(void **state)
+{
+    static const int32_t verts[] = {0, 1, 4 * 9 + 2, 5 * 9 + 2};
+    static const float sharpness[] = {1.0f, 1.0f};
+    int32_t holes[N - 1];
+    otx_run *run = test_run_create();
+    otx_cage_input in = mesh_grid(run, N);
+    otx_cage cage;
+    otx_surface s;
+    int32_t marked;
+    const double *d;
+
+    (void)state;
+    for (int32_t k = 0; k < N - 1; ++k)
+        holes[k] = 4 * N + k;
+    in.hole_count = N - 1;
+    in.hole_faces = holes;
+    in.crease_count = 2;
+    in.crease_verts = verts;
+    in.crease_sharpness = sharpness;
+    s = bilinear(run, &in, 0, &cage);
+    d = away(run, &s, OTX_EDGE_CREASE, &marked);
+    assert_int_equal(marked, 1);
+    for (int32_t v = 0; v < otx_surface_leaf(&s)->vert_count; ++v)
+    {
+        const double x = (double)s.points[3 * v];
+        const double y = (double)s.points[3 * v + 1];
+
+        if (y > 4.5)
+            assert_true(d[v] > 7.8 + (7.0 - x));
+    }
+    test_run_destroy(run);
+}
+
 static void
 closed_surfaces_have_no_rim(void **state)
 {
@@ -100,6 +137,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rims_are_where_there_is_one_face),
         cmocka_unit_test(creases_are_followed_through_levels),
+        cmocka_unit_test(holes_are_not_of_the_surface),
         cmocka_unit_test(closed_surfaces_have_no_rim),
     };
 
