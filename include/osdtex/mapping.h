@@ -198,6 +198,16 @@ osdtex_mapping_describe(const osdtex_mapping *mapping);
 /* The surface whose faces the mapping is of, lent. NULL for NULL. */
 OSDTEX_API const osdtex_surface *
 osdtex_mapping_surface(const osdtex_mapping *mapping);
+/* How much larger each face of the surface shows the texture than the scale
+ * asks for: the L2 stretch [Sander01], RMS over directions and the face. 1 is
+ * as asked, above it is larger, INFINITY where the UVs are turned over or have
+ * no area, NAN on holes.
+ *
+ *   out  [face_count], filled
+ *
+ * ARGUMENT, MEMORY. */
+OSDTEX_API osdtex_status osdtex_mapping_stretch(
+    osdtex_context *context, const osdtex_mapping *mapping, float *out);
 
 typedef struct osdtex_edit_options
 {

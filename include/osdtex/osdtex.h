@@ -14,6 +14,7 @@
  *     osdtex_bake            the cage with textures on its UVs (bake.h)
  *     osdtex_textures_create the same textures in memory (textures.h)
  *     osdtex_report_create   how good it is, in figures (report.h)
+ *     osdtex_seams_create    where its seams show most (seams.h)
  *     osdtex_render          a picture of the result (render.h)
  *
  * and beside it memory, threads and findings (context.h), the refined surface
@@ -63,6 +64,7 @@
 #include <osdtex/preflight.h>
 #include <osdtex/render.h>
 #include <osdtex/report.h>
+#include <osdtex/seams.h>
 #include <osdtex/stack.h>
 #include <osdtex/surface.h>
 #include <osdtex/textures.h>

@@ -5,26 +5,23 @@
 #include "render/camera.h"
 #include "render/scene.h"
 
-enum
-{
-    OTX_WORST_SEAM_MAX = 99
-};
-
 /* "seam1" to "seam99", the worst first; 0 for any other name. */
 int32_t otx_worst_seam_rank(const char *name);
 
 /* How many places there are to look at, up to `most`, which is no more than
- * OTX_WORST_SEAM_MAX; 0 of a model without texture or seam. MEMORY. */
+ * OTX_SEAM_PLACES_MAX; 0 of a model without texture or seam. CANCELLED, MEMORY.
+ */
 otx_status otx_worst_seam_count(
     otx_run *run, const otx_scene *scene, int32_t most, int32_t *out);
 
 /* Looks at a place along its normal, from near enough that the picture is an
  * eighth of the model wide, and through what stands before it.
  *
- *   rank  1 .. OTX_WORST_SEAM_MAX
+ *   rank  1 .. OTX_SEAM_PLACES_MAX
  *   out   where places run out, the last of them
  *
- * ARGUMENT when the model has no texture or no seam; MEMORY. */
+ * ARGUMENT when the model has no texture or no seam; CANCELLED,
+ * MEMORY. */
 otx_status otx_worst_seam_camera(
     otx_run *run, const otx_scene *scene, int32_t rank, otx_camera *out);
 

@@ -1,8 +1,6 @@
 /* figures.c -- the numbers beside the picture. */
 #include "studio/figures.h"
 
-#include "studio/joins.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,11 +42,21 @@ report_figures(osdtex_context *context, const osdtex_mapping *mapping)
 static json_t *
 worst_places(const otx_snapshot *s)
 {
-    const otx_joins joins = otx_joins_find(s);
-    json_t *places = otx_joins_places(s, &joins);
+    const osdtex_seams_info *seams = osdtex_seams_describe(s->outcome->seams);
+    json_t *list = json_array();
 
-    free(joins.items);
-    return places;
+    for (int32_t i = 0; i < seams->place_count; ++i)
+    {
+        const osdtex_seam_place *p = &seams->places[i];
+
+        json_array_append_new(
+            list, json_pack(
+                      "{s:[f,f,f], s:[f,f,f], s:f, s:f}", "point", p->point[0],
+                      p->point[1], p->point[2], "normal", p->normal[0],
+                      p->normal[1], p->normal[2], "length", p->length,
+                      "difference", p->difference));
+    }
+    return list;
 }
 
 json_t *

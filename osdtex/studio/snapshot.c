@@ -3,17 +3,47 @@
 
 #include <stdlib.h>
 
-otx_outcome *
-otx_outcome_make(osdtex_mapping *mapping, osdtex_field *field)
+/* Where its seams are, and how much its faces are stretched. */
+static osdtex_status
+look(osdtex_context *context, otx_outcome *o)
+{
+    const osdtex_status status = osdtex_seams_create(
+        context, o->mapping, OTX_SNAPSHOT_PLACES_MOST, &o->seams);
+
+    if (status != OSDTEX_OK)
+        return status;
+    o->stretch = calloc(
+        (size_t)osdtex_mapping_describe(o->mapping)->face_count,
+        sizeof *o->stretch);
+    if (!o->stretch)
+        return OSDTEX_ERROR_MEMORY;
+    return osdtex_mapping_stretch(context, o->mapping, o->stretch);
+}
+
+osdtex_status
+otx_outcome_make(
+    osdtex_context *context, osdtex_mapping *mapping, osdtex_field *field,
+    otx_outcome **out)
 {
     otx_outcome *o = calloc(1, sizeof *o);
+    osdtex_status status;
 
+    *out = NULL;
     if (!o)
-        return NULL;
+    {
+        osdtex_field_destroy(field);
+        osdtex_mapping_destroy(mapping);
+        return OSDTEX_ERROR_MEMORY;
+    }
     atomic_init(&o->holders, 1);
     o->mapping = mapping;
     o->field = field;
-    return o;
+    status = look(context, o);
+    if (status == OSDTEX_OK)
+        *out = o;
+    else
+        otx_outcome_release(o);
+    return status;
 }
 
 otx_outcome *
@@ -28,6 +58,8 @@ otx_outcome_release(otx_outcome *o)
 {
     if (!o || atomic_fetch_sub(&o->holders, 1) > 1)
         return;
+    free(o->stretch);
+    osdtex_seams_destroy(o->seams);
     osdtex_field_destroy(o->field);
     osdtex_mapping_destroy(o->mapping);
     free(o);

@@ -12,7 +12,8 @@
 
 enum
 {
-    OTX_SNAPSHOT_EXEMPLARS_MAX = OSDTEX_EXEMPLARS_MAX
+    OTX_SNAPSHOT_EXEMPLARS_MAX = OSDTEX_EXEMPLARS_MAX,
+    OTX_SNAPSHOT_PLACES_MOST = 24 /* of seams */
 };
 
 /* What a recipe has made; of several snapshots, where it comes again. */
@@ -22,13 +23,21 @@ typedef struct otx_outcome
     int64_t surface_serial; /* another number, other points and faces */
     osdtex_mapping *mapping;
     osdtex_field *field; /* NULL none */
+    osdtex_seams *seams;
+    float *stretch; /* of each face */
     const osdtex_exemplar *exemplars[OTX_SNAPSHOT_EXEMPLARS_MAX];
     int exemplar; /* which of those to choose among the first is */
 } otx_outcome;
 
-/* Takes the mapping and the field; NULL when memory is out, and then they stay
- * the caller's. One holder. */
-otx_outcome *otx_outcome_make(osdtex_mapping *mapping, osdtex_field *field);
+/* Takes the mapping and the field, whatever comes of it, and looks at what was
+ * made. One holder.
+ *
+ *   out  NULL on failure
+ *
+ * CANCELLED, MEMORY. */
+osdtex_status otx_outcome_make(
+    osdtex_context *context, osdtex_mapping *mapping, osdtex_field *field,
+    otx_outcome **out);
 otx_outcome *otx_outcome_hold(otx_outcome *outcome);
 void otx_outcome_release(otx_outcome *outcome);
 

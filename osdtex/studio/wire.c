@@ -1,12 +1,13 @@
 /* wire.c -- arrays as the page reads them, in one block of bytes. */
 #include "studio/wire.h"
 
-#include "studio/joins.h"
-
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* How far from what was asked is shown. */
+static const float OCTAVES = 16.0f;
 
 /* -- a block -------------------------------------------------------------- */
 
@@ -72,81 +73,20 @@ otx_wire_surface(const otx_snapshot *s)
     return w;
 }
 
-/* -- stretch -------------------------------------------------------------- */
-
-/* A triangle: how it lies in space, in axes of its own, and in the texture. */
-typedef struct triangle
-{
-    double ax, bx, by; /* edges (ax, 0) and (bx, by) */
-    double p[2], q[2]; /* the same in scene units of the texture */
-} triangle;
-
-static bool
-flatten(
-    const osdtex_surface_info *s, const float *uvs, osdtex_index c,
-    const double unit[2], triangle *out)
-{
-    const float *a = s->points + 3 * (size_t)s->face_verts[c];
-    const float *b = s->points + 3 * (size_t)s->face_verts[c + 1];
-    const float *d = s->points + 3 * (size_t)s->face_verts[c + 2];
-    const float *t = uvs + 2 * (size_t)c;
-    double along = 0.0, ab = 0.0, dd = 0.0;
-
-    for (int k = 0; k < 3; ++k)
-    {
-        ab += ((double)b[k] - a[k]) * ((double)b[k] - a[k]);
-        along += ((double)b[k] - a[k]) * ((double)d[k] - a[k]);
-        dd += ((double)d[k] - a[k]) * ((double)d[k] - a[k]);
-    }
-    out->ax = sqrt(ab);
-    out->bx = ab > 0.0 ? along / out->ax : 0.0;
-    out->by = sqrt(fmax(0.0, dd - out->bx * out->bx));
-    for (int k = 0; k < 2; ++k)
-    {
-        out->p[k] = unit[k] * ((double)t[2 + k] - t[k]);
-        out->q[k] = unit[k] * ((double)t[4 + k] - t[k]);
-    }
-    return out->ax > 0.0 && out->by > 0.0;
-}
-
-/* Octaves by which the texture is larger on the surface than asked for, or
- * smaller: of its two main directions the one that is farther off. */
-static float
-stretch_of(const triangle *t)
-{
-    double trace = 0.0, det, root, large, small;
-    double j[2][2];
-
-    for (int k = 0; k < 2; ++k)
-    {
-        j[k][0] = t->p[k] / t->ax;
-        j[k][1] = (t->q[k] - j[k][0] * t->bx) / t->by;
-        trace += j[k][0] * j[k][0] + j[k][1] * j[k][1];
-    }
-    det = fabs(j[0][0] * j[1][1] - j[0][1] * j[1][0]);
-    root = sqrt(fmax(0.0, trace * trace - 4.0 * det * det));
-    large = -0.5 * log2(fmax(1e-12, 0.5 * (trace - root)));
-    small = -0.5 * log2(fmax(1e-12, 0.5 * (trace + root)));
-    return (float)(fabs(large) > fabs(small) ? large : small);
-}
-
+/* Octaves by which faces show the texture larger than asked, or smaller; what
+ * is turned over is as large as can be, and holes are not looked at. */
 static void
 put_stretch(const otx_snapshot *s, float *out)
 {
-    const osdtex_surface_info *surface =
-        osdtex_surface_describe(osdtex_mapping_surface(s->outcome->mapping));
     const osdtex_mapping_info *m = osdtex_mapping_describe(s->outcome->mapping);
-    const osdtex_exemplar_info *e =
-        osdtex_exemplar_describe(s->outcome->exemplars[0]);
-    const double unit[2] = {m->scale, m->scale * e->height / e->width};
 
     for (osdtex_index f = 0; f < m->face_count; ++f)
     {
-        triangle t;
+        const float stretch = s->outcome->stretch[f];
 
-        out[f] = 0.0f;
-        if (flatten(surface, m->uvs, surface->face_first[f], unit, &t))
-            out[f] = stretch_of(&t);
+        out[f] = isnan(stretch)
+                     ? 0.0f
+                     : fminf(OCTAVES, fmaxf(-OCTAVES, log2f(stretch)));
     }
 }
 
@@ -189,15 +129,16 @@ otx_wire_mapping(const otx_snapshot *s)
 otx_wire
 otx_wire_seams(const otx_snapshot *s)
 {
-    const otx_joins joins = otx_joins_find(s);
-    const size_t bytes = (size_t)joins.count * sizeof *joins.items;
-    const int32_t head[OTX_WIRE_HEAD] = {
-        OTX_WIRE_MAGIC, (int32_t)s->serial, joins.count};
-    otx_wire w = begin(head, bytes);
+    const osdtex_seams_info *i = osdtex_seams_describe(s->outcome->seams);
+    int32_t head[OTX_WIRE_HEAD] = {OTX_WIRE_MAGIC, (int32_t)s->serial};
+    otx_wire w;
 
-    if (w.bytes)
-        add(&w, joins.items, bytes);
-    free(joins.items);
+    for (int32_t k = 0; k < i->seam_count; ++k)
+        head[2] += i->seams[k].difference > 0.0f;
+    w = begin(head, (size_t)head[2] * sizeof *i->seams);
+    for (int32_t k = 0; w.bytes && k < i->seam_count; ++k)
+        if (i->seams[k].difference > 0.0f)
+            add(&w, &i->seams[k], sizeof *i->seams);
     return w;
 }
 

@@ -158,23 +158,23 @@ edit_recipe(otx_studio_worker *w, const json_t *recipe, osdtex_mapping **out)
     return status;
 }
 
-/* What the page is shown of a mapping. */
+/* What the page is shown of a mapping, which is taken. */
 static osdtex_status
 wrap_up(
     otx_studio_worker *w, const osdtex_map_options *map,
     osdtex_mapping *mapping, otx_outcome **out)
 {
     osdtex_field *field = NULL;
-    const osdtex_status status = solve_field(w, map, &field);
-    otx_outcome *o =
-        status == OSDTEX_OK ? otx_outcome_make(mapping, field) : NULL;
+    osdtex_status status = solve_field(w, map, &field);
+    otx_outcome *o;
 
-    *out = o;
-    if (!o)
-    {
-        osdtex_field_destroy(field);
-        return status == OSDTEX_OK ? OSDTEX_ERROR_MEMORY : status;
-    }
+    if (status == OSDTEX_OK)
+        status = otx_outcome_make(w->context, mapping, field, out);
+    else
+        osdtex_mapping_destroy(mapping);
+    if (status != OSDTEX_OK)
+        return status;
+    o = *out;
     o->surface_serial = w->surface_serial;
     o->exemplar = w->surface_exemplar;
     o->exemplars[0] = w->exemplars[w->surface_exemplar];
@@ -212,8 +212,6 @@ map_recipe(
         status = wrap_up(w, &map, mapping, out);
     if (status == OSDTEX_OK)
         otx_shelf_put(&w->shelf, recipe, *out);
-    else
-        osdtex_mapping_destroy(mapping);
     return status;
 }
 

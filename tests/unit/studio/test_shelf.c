@@ -48,8 +48,8 @@ set_up(void **state)
     assert_int_equal(
         osdtex_map(s->context, s->cage, s->exemplar, &options, &mapping),
         OSDTEX_OK);
-    s->outcome = otx_outcome_make(mapping, NULL);
-    assert_non_null(s->outcome);
+    assert_int_equal(
+        otx_outcome_make(s->context, mapping, NULL, &s->outcome), OSDTEX_OK);
     *state = s;
     return 0;
 }
