@@ -2,6 +2,8 @@
  * saved mapping. */
 #include "api/saved_lookups.h"
 
+#include "api/saved_items.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -13,45 +15,24 @@ enum
     OUTLINE_FLOATS = 5 + OTX_RADIAL_ANGLES
 };
 
-static int64_t
-item_count(const otx_mapping *m)
-{
-    return m->lookups->first[otx_surface_leaf(m->surface)->face_count];
-}
+static const otx_saved_names NAMES = {
+    "lookup_first", "lookups", "lookup_fragment"};
 
 /* ---- saving ---- */
 
 void
 otx_saved_lookups_add_offsets(const otx_mapping *m, otx_tensors *out)
 {
-    if (m->lookups)
-        otx_tensors_add(
-            out, "lookup_first", OTX_TENSOR_I64,
-            (int64_t)otx_surface_leaf(m->surface)->face_count + 1, 0,
-            m->lookups->first);
+    otx_saved_items_add_first(
+        m->lookups, otx_surface_leaf(m->surface), &NAMES, out);
 }
 
 otx_status
 otx_saved_lookups_add_reals(
     otx_run *run, const otx_mapping *m, otx_tensors *out)
 {
-    const otx_lookups *l = m->lookups;
-    const int64_t count = l ? item_count(m) : 0;
-    float *values;
-
-    if (!l)
-        return OSDTEX_OK;
-    values = OTX_NEW(run->scratch, float, 3 * count);
-    if (!values)
-        return otx_fail_memory(run, STAGE);
-    for (int64_t i = 0; i < count; ++i)
-    {
-        values[3 * i] = l->items[i].uv[0];
-        values[3 * i + 1] = l->items[i].uv[1];
-        values[3 * i + 2] = l->items[i].weight;
-    }
-    otx_tensors_add(out, "lookups", OTX_TENSOR_F32, count, 3, values);
-    return OSDTEX_OK;
+    return otx_saved_items_add_values(
+        run, m->lookups, otx_surface_leaf(m->surface), &NAMES, out);
 }
 
 /* Outlines that cut fragments out, where there are any. */
@@ -109,18 +90,11 @@ otx_saved_lookups_add_numbers(
     otx_run *run, const otx_mapping *m, otx_tensors *out)
 {
     const otx_lookups *l = m->lookups;
-    const int64_t count = l ? item_count(m) : 0;
-    int32_t *fragments;
 
     if (!l)
         return OSDTEX_OK;
-    fragments = OTX_NEW(run->scratch, int32_t, count);
-    if (!fragments)
-        return otx_fail_memory(run, STAGE);
-    for (int64_t i = 0; i < count; ++i)
-        fragments[i] = l->items[i].fragment;
-    otx_tensors_add(
-        out, "lookup_fragment", OTX_TENSOR_I32, count, 0, fragments);
+    OTX_TRY(otx_saved_items_add_fragments(
+        run, l, otx_surface_leaf(m->surface), &NAMES, out));
     OTX_TRY(add_fragments(run, l, out));
     return add_outlines(run, l, out);
 }
@@ -130,36 +104,18 @@ otx_saved_lookups_add_numbers(
 /* The arrays of a file; NULL where they are not there, or of another shape. */
 typedef struct arrays
 {
-    const int64_t *first;
-    const float *values;
-    const int32_t *fragment;
+    otx_saved_items items;
     const otx_tensor *fragments, *outlines;
-    int64_t count;
 } arrays;
-
-static const void *
-find(
-    const otx_tensors *from, const char *name, otx_tensor_type type,
-    int64_t rows, int64_t columns)
-{
-    const otx_tensor *t = otx_tensors_find(from, name, type, rows, columns);
-
-    return t ? t->data : NULL;
-}
 
 static arrays
 find_all(const otx_tensors *from, const otx_level *leaf)
 {
     arrays a = {
-        .first = find(
-            from, "lookup_first", OTX_TENSOR_I64, (int64_t)leaf->face_count + 1,
-            0),
+        .items = otx_saved_items_find(from, leaf, &NAMES),
         .fragments =
             otx_tensors_find(from, "fragments", OTX_TENSOR_I32, -1, 2)};
 
-    a.count = a.first ? a.first[leaf->face_count] : 0;
-    a.values = find(from, "lookups", OTX_TENSOR_F32, a.count, 3);
-    a.fragment = find(from, "lookup_fragment", OTX_TENSOR_I32, a.count, 0);
     if (a.fragments)
         a.outlines = otx_tensors_find(
             from, "fragment_outlines", OTX_TENSOR_F32, a.fragments->rows,
@@ -172,22 +128,17 @@ static const char *
 what_is_wrong(const arrays *a, const otx_level *leaf, int32_t exemplar_count)
 {
     const int32_t *row = a->fragments ? a->fragments->data : NULL;
+    const int64_t rows = a->fragments ? a->fragments->rows : 0;
+    const char *wrong = otx_saved_items_wrong(&a->items, leaf, -1, rows);
 
-    if (a->count < 0 || !a->values || !a->fragment || !row ||
-        a->fragments->rows > INT32_MAX || a->first[0] != 0)
-        return "its lookups do not fit together";
-    for (int32_t f = 0; f < leaf->face_count; ++f)
-        if (a->first[f + 1] < a->first[f] || a->first[f + 1] > a->count ||
-            (a->first[f + 1] - a->first[f]) % otx_level_face_size(leaf, f) != 0)
-            return "its lookups do not fit the faces";
-    for (int64_t i = 0; i < a->count; ++i)
-        if (a->fragment[i] < -1 || a->fragment[i] >= a->fragments->rows)
-            return "a lookup has no fragment";
-    for (int64_t i = 0; i < a->fragments->rows; ++i)
+    if (wrong)
+        return wrong;
+    if (!row)
+        return "its lookups have no fragments";
+    for (int64_t i = 0; i < rows; ++i)
         if (row[2 * i] < 0 || row[2 * i] >= exemplar_count)
             return "a fragment has no exemplar";
-    for (int64_t i = 0; a->outlines && i < OUTLINE_FLOATS * a->outlines->rows;
-         ++i)
+    for (int64_t i = 0; a->outlines && i < OUTLINE_FLOATS * rows; ++i)
         if (!isfinite(((const float *)a->outlines->data)[i]))
             return "an outline is not finite";
     return NULL;
@@ -225,26 +176,21 @@ otx_saved_lookups_join(
 {
     const otx_level *leaf = otx_surface_leaf(mapping->surface);
     const arrays a = find_all(from, leaf);
+    const otx_lookup *items;
     otx_lookups *lookups;
     otx_fragment *fragments;
-    otx_lookup *items;
 
     *damaged = NULL;
     mapping->lookups = NULL;
-    if (!a.first)
+    if (!a.items.first)
         return OSDTEX_OK;
     *damaged = what_is_wrong(&a, leaf, exemplar_count);
     if (*damaged)
         return OSDTEX_OK;
     lookups = OTX_ZNEW(run->arena, otx_lookups, 1);
-    items = OTX_NEW(run->arena, otx_lookup, a.count);
     fragments = OTX_ZNEW(run->arena, otx_fragment, a.fragments->rows);
     OTX_TRY(otx_run_ok(run));
-    for (int64_t i = 0; i < a.count; ++i)
-        items[i] = (otx_lookup){
-            {a.values[3 * i], a.values[3 * i + 1]},
-            a.values[3 * i + 2],
-            a.fragment[i]};
+    OTX_TRY(otx_saved_items_join(run, &a.items, &items));
     for (int64_t i = 0; i < a.fragments->rows; ++i)
     {
         const int32_t *row = (const int32_t *)a.fragments->data + 2 * i;
@@ -253,7 +199,7 @@ otx_saved_lookups_join(
     }
     OTX_TRY(join_outlines(run, &a, fragments));
     *lookups = (otx_lookups){
-        a.first, items, layering, (int32_t)a.fragments->rows, fragments};
+        a.items.first, items, layering, (int32_t)a.fragments->rows, fragments};
     mapping->lookups = lookups;
     return OSDTEX_OK;
 }
