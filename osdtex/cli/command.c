@@ -331,8 +331,8 @@ static const otx_command commands[] = {
      "Serves a page on which the textured model is turned, looked at and "
      "directed:\ncomb directions, brush sizes, choose the first patch and the "
      "exemplar. Each\ngesture is a constraint in a file that `osdtex map "
-     "--constraints` reads, which is\nsaved as it changes; the page shows the "
-     "command. Only this machine can open the\npage, by the address that is "
+     "--constraints` reads, which\nis saved as it changes; the page shows the "
+     "command. Only this machine can open\nthe page, by the address that is "
      "printed. Ctrl-C ends it.",
      "osdtex studio models/cages/creature.obj models/exemplars/scales_cut.png\n"
      "osdtex studio shirt.obj weave.exr denim.exr -o out/shirt.obj --scale "

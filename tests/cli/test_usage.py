@@ -7,21 +7,26 @@ from program import CAGES, EXEMPLARS, ProgramTest, main
 
 CAGE = CAGES / "sphere.obj"
 EXEMPLAR = EXEMPLARS / "gravel_tile.png"
-COMMANDS = ("map", "tiles", "stack", "edit", "bake", "render", "field", "regress", "plan",
-            "run", "info", "methods", "help")
 
 
 class Help(ProgramTest):
+    def commands(self):
+        """As the program lists them."""
+        text = self.run_program("--help").stdout.split("Commands:\n")[1]
+        found = re.findall(r"^    (\w+) +\w", text.split("\n\n")[0], re.M)
+        self.assertTrue({"map", "bake", "studio", "help"} <= set(found), found)
+        return found
+
     def test_help_opens_with_examples(self):
         result = self.run_program("--help")
         self.assert_exit(result, 0)
         examples = result.stdout.index("    osdtex map ")
         self.assertLess(examples, result.stdout.index("Usage:"))
-        for command in COMMANDS:
-            self.assertIn(f"\n    {command} ", result.stdout)
+        for line in result.stdout.split("\n"):
+            self.assertLess(len(line), 80, line)
 
     def test_every_command_has_help(self):
-        for command in COMMANDS:
+        for command in self.commands():
             result = self.run_program(command, "--help")
             self.assert_exit(result, 0)
             self.assertIn(f"Usage: osdtex {command} ", result.stdout)
@@ -29,7 +34,7 @@ class Help(ProgramTest):
                 result.stdout, self.run_program("help", command).stdout)
 
     def test_help_fits_a_terminal(self):
-        for command in COMMANDS:
+        for command in self.commands():
             for line in self.run_program(command, "--help").stdout.split("\n"):
                 self.assertLess(len(line), 80, line)
 
