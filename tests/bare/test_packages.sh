@@ -3,34 +3,12 @@
 # the program, a host in C, the Python module, manual pages, completions.
 #
 #     test_packages.sh BUILD_FOLDER
-#
-# The machine is a chroot in the build folder, removed afterwards. Skipped where
-# chroots cannot be made, or no packages be had.
 set -eu
 build=$(realpath "$1")
 work=$build/packages
-root=$work/root
-log=$work/log
-
-skip() {
-    echo "skipped: $*"
-    exit 77
-}
-
-[ "$(id -u)" = 0 ] || skip "only root makes a chroot"
-for program in mmdebstrap unshare; do
-    command -v $program >/dev/null || skip "no $program (tools/deps medium)"
-done
-unshare --mount --pid --fork true 2>/dev/null || skip "no namespaces here"
-[ "$(df --output=avail -m "$1" | tail -n 1)" -gt 4000 ] ||
-    skip "a bare machine takes 4 GB of disk"
-
-clean() {
-    rm -rf --one-file-system "$work"
-}
-clean
-mkdir -p "$work"
-trap clean EXIT
+megabytes=4000
+programs=
+. "$(dirname "$0")/machine.sh"
 
 (cd "$work" && cpack --config "$build/CPackConfig.cmake" -B "$work/debs" \
     >"$log" 2>&1) || { cat "$log"; exit 1; }
@@ -42,14 +20,12 @@ for name in libosdtex0 libosdtex-dev_ osdtex_ osdtex-doc_ python3-osdtex_; do
     }
 done
 
-mmdebstrap --variant=minbase bookworm "$root" >"$log" 2>&1 ||
-    skip "no bare Debian can be made: $(tail -n 1 "$log")"
-cp /etc/resolv.conf "$root/etc/"
-mkdir "$root/root/osdtex"
+make_machine
 cp "$work"/debs/*.deb "$root/root/osdtex/"
 cp models/cages/plane.obj models/exemplars/gravel_tile.png \
     tests/consumer/consumer.c "$root/root/osdtex/"
-cat >"$root/root/commands" <<'END'
+status=0
+run_there <<'END' || status=$?
 set -eu
 cd /root/osdtex
 export DEBIAN_FRONTEND=noninteractive
@@ -87,15 +63,6 @@ apt-get purge -y osdtex libosdtex-dev python3-osdtex osdtex-doc
 test ! -e /usr/bin/osdtex
 END
 
-status=0
-unshare --mount --pid --fork --kill-child sh -eu -c '
-    mount --make-rprivate /
-    mount --rbind /dev "$0/dev"
-    mount -t proc proc "$0/proc"
-    exec chroot "$0" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root \
-        ${http_proxy:+http_proxy="$http_proxy"} \
-        ${https_proxy:+https_proxy="$https_proxy"} \
-        sh /root/commands' "$root" >"$log" 2>&1 || status=$?
 if [ $status -ne 0 ]; then
     tail -n 100 "$log"
     exit 1
