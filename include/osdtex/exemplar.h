@@ -71,6 +71,25 @@ enum
     OSDTEX_RECEIVER_WEB = 5
 };
 
+/* Which files textures are. Those of integers are sRGB, whatever the receiver
+ * is: `to` has no say. */
+typedef int32_t osdtex_texture_type;
+enum
+{
+    OSDTEX_TEXTURE_ANY = 0,  /* what the receiver takes */
+    OSDTEX_TEXTURE_EXR = 1,  /* half floats, with mip levels */
+    OSDTEX_TEXTURE_PNG = 2,  /* 8 bits, dithered */
+    OSDTEX_TEXTURE_TIFF = 3, /* 16 bits */
+    OSDTEX_TEXTURE_JPEG = 4  /* 8 bits, no alpha */
+};
+
+/* What names of such files end in: ".exr", ".png", ".tif", ".jpg"; those of the
+ * colour with `map` -1, else those of a map of that kind, an osdtex_map_kind:
+ * heights stay floats (TIFF or EXR), other maps have 16 bits (TIFF or PNG).
+ * NULL for other values. */
+OSDTEX_API const char *
+osdtex_texture_extension(osdtex_texture_type type, int32_t map);
+
 typedef struct osdtex_exemplar_options
 {
     size_t size;
@@ -99,6 +118,8 @@ typedef struct osdtex_exemplar_options
      * by its kind. All 0: the colour alone. */
     double match_color;
     double match_maps[OSDTEX_MAP_KINDS];
+    osdtex_texture_type texture_type; /* of what is written */
+    int32_t reserved;
 } osdtex_exemplar_options;
 
 static inline osdtex_exemplar_options

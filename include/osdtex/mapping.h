@@ -332,6 +332,9 @@ typedef struct osdtex_mapping_read_options
     double heal;
     const char *place; /* as osdtex_map_options.place, instead of what was
                         * saved; NULL: that */
+    osdtex_texture_type texture_type; /* of what is written; ANY: what the
+                                       * receiver takes */
+    int32_t reserved;
 } osdtex_mapping_read_options;
 
 static inline osdtex_mapping_read_options

@@ -7,6 +7,8 @@
 #include "api/exemplar_slices.h"
 #include "api/picture_source.h"
 #include "base/hash.h"
+#include "export/companion_files.h"
+#include "export/texture_file.h"
 #include "file/exr_slices.h"
 #include "file/picture.h"
 #include "image/opaque.h"
@@ -60,11 +62,13 @@ check_options(
         ours->tileable < OSDTEX_TILEABLE_AUTO ||
         ours->tileable > OSDTEX_TILEABLE_MAKE ||
         ours->receiver < OSDTEX_RECEIVER_ANY ||
-        ours->receiver >= OTX_RECEIVER_COUNT)
+        ours->receiver >= OTX_RECEIVER_COUNT ||
+        ours->texture_type < OSDTEX_TEXTURE_ANY ||
+        ours->texture_type >= OTX_TEXTURE_COUNT)
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "colour", OTX_NOWHERE,
-            "embedding, wrap, tileable or receiver is none of the values of "
-            "osdtex.h");
+            "embedding, wrap, tileable, receiver or type of the textures is "
+            "none of the values of osdtex.h");
     return OSDTEX_OK;
 }
 
@@ -267,6 +271,7 @@ build(
     OTX_TRY(otx_call_colour(call, &colour));
     input->to = options->to;
     input->receiver = (otx_receiver)options->receiver;
+    input->type = (otx_texture_type)options->texture_type;
     input->match_space = options->match_space;
     input->embedding = (otx_embedding)options->embedding;
     input->wrap = (otx_exemplar_wrap)options->wrap;
@@ -510,4 +515,15 @@ osdtex_exemplar_analyse(
     *out = (osdtex_exemplar_structure){0};
     OTX_TRY(otx_call_begin(context, "exemplar", &call));
     return otx_call_drop(&call, analyse(&call.run, exemplar, out));
+}
+
+const char *
+osdtex_texture_extension(osdtex_texture_type type, int32_t map)
+{
+    if (type < OSDTEX_TEXTURE_ANY || type >= OTX_TEXTURE_COUNT || map < -1 ||
+        map >= OTX_COMPANION_COUNT)
+        return NULL;
+    return map < 0 ? otx_texture_file_type_extension((otx_texture_type)type)
+                   : otx_companion_files_extension(
+                         (otx_texture_type)type, (otx_companion_kind)map);
 }

@@ -2,12 +2,12 @@
 #include "api/image_handle.h"
 #include "api/call.h"
 #include "api/handle.h"
-#include "base/random.h"
 #include "colour/embedding.h"
 #include "file/atomic_file.h"
 #include "file/exr.h"
 #include "file/picture.h"
 #include "file/png_file.h"
+#include "image/dither.h"
 
 #include <string.h>
 #include <strings.h>
@@ -189,25 +189,6 @@ to_display(
     return OSDTEX_OK;
 }
 
-/* Noise of half a step to each side, so that what is smooth has no bands in 8
- * bits. A value that 8 bits can hold stays what it is. */
-static void
-dither(otx_image *image)
-{
-    const double step = 0.999 / 255.0;
-
-    for (int32_t y = 0; y < image->height; ++y)
-        for (int32_t x = 0; x < image->width; ++x)
-        {
-            const uint64_t pixel = (uint64_t)y << 32 | (uint32_t)x;
-            float *p = otx_image_at(image, x, y);
-
-            for (int32_t k = 0; k < 3; ++k)
-                p[k] +=
-                    (float)(step * (otx_random_unit(0, (uint32_t)k, pixel) - 0.5));
-        }
-}
-
 static otx_status
 write_exr(
     otx_run *run, otx_atomic_file_set *set, const char *path,
@@ -245,7 +226,7 @@ write_image(otx_call *call, const osdtex_image *image, const char *path)
     if (is_png)
     {
         OTX_TRY(to_display(run, colour, linear, &pixels));
-        dither(&pixels);
+        otx_dither_8bit(&pixels);
         OTX_TRY(otx_png_file_write(run, set, path, &pixels, 8));
     }
     else

@@ -23,6 +23,7 @@ read_picture(
     otx_exemplar_input input = {
         .to = like->linear_space,
         .receiver = like->receiver,
+        .type = OTX_TEXTURE_EXR,
         .match_space = like->match_space,
         .embedding = like->embedding,
         .wrap = OTX_EXEMPLAR_WRAP_NO,

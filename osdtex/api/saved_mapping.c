@@ -222,6 +222,10 @@ read_exemplar(loader *l, int32_t k)
         s->options.to = l->options.to;
         s->options.receiver = l->options.receiver;
     }
+    s->options.texture_type = l->options.texture_type;
+    /* Integers have a space of their own. */
+    if (l->options.texture_type > OSDTEX_TEXTURE_EXR && !l->options.to)
+        s->options.to = NULL;
     OTX_TRY(choose_maps(l, k, swapped));
     OTX_TRY(otx_exemplar_handle_read(
         l->call->context, path, &s->options, &s->cuts,

@@ -129,9 +129,11 @@ write_set(
     otx_exemplar tiles = *exemplar;
     otx_atomic_file_set *set;
 
+    /* No other file says where the tiles are. */
+    tiles.type = OTX_TEXTURE_EXR;
     OTX_TRY(otx_atomic_file_begin(run, run->scratch, &set));
     OTX_TRY(otx_texture_file_write(
-        run, set, path, exemplar, &made->linear, &made->layout));
+        run, set, path, &tiles, &made->linear, &made->layout));
     /* Heights as they were: how much they are in scene units is asked for where
      * the tiles are mapped. */
     tiles.linear = made->linear;

@@ -24,8 +24,8 @@ static const char *const KINDS[KIND_COUNT] = {
 typedef struct request
 {
     const osdtex_bake_options *options;
-    uint32_t maps;         /* bit k: that of kind k */
-    const char *extension; /* of the colour */
+    uint32_t maps; /* bit k: that of kind k */
+    osdtex_texture_type type;
 } request;
 
 /* FOLDER/NAMEsuffix; NULL when memory is out. */
@@ -65,8 +65,8 @@ tile_is_done(
     for (int kind = 0; kind < OSDTEX_MAP_KINDS; ++kind)
     {
         snprintf(
-            suffix, sizeof suffix, "_%s.%ld.exr", osdtex_map_kind_name(kind),
-            tile);
+            suffix, sizeof suffix, "_%s.%ld%s", osdtex_map_kind_name(kind),
+            tile, osdtex_texture_extension(asked->type, kind));
         if ((asked->maps & 1u << kind) && !is_there(cage, suffix, hash))
             return false;
     }
@@ -77,7 +77,7 @@ tile_is_done(
             continue;
         snprintf(
             suffix, sizeof suffix, "%s.%ld%s", KINDS[kind], tile,
-            kind == 0 ? asked->extension : ".exr");
+            kind == 0 ? osdtex_texture_extension(asked->type, -1) : ".exr");
         if (!is_there(cage, suffix, hash))
             return false;
     }
@@ -130,9 +130,9 @@ named_tiles_are_done(const char *cage, const request *asked, const char *hash)
 bool
 otx_bake_outputs_are_done(
     const char *cage, const osdtex_bake_options *options, uint32_t maps,
-    const char *extension, const char hash[OSDTEX_HASH_BYTES])
+    osdtex_texture_type type, const char hash[OSDTEX_HASH_BYTES])
 {
-    const request asked = {options, maps, extension};
+    const request asked = {options, maps, type};
     const char *of_all = options->udim ? NULL : hash;
 
     return is_there(cage, "_cage.obj", of_all) &&
@@ -174,10 +174,11 @@ base_of(const char *path)
 /* Whether "_NAME.1001.exr" is of a kind called that. */
 static bool
 is_tile_of(
-    const osdtex_bake_options *options, const char *text, const char *name)
+    const osdtex_bake_options *options, const char *text, const char *name,
+    const char *extension)
 {
     return *text == '_' && strncasecmp(text + 1, name, strlen(name)) == 0 &&
-           is_asked_for(options, tile_of(text + 1 + strlen(name), ".exr"));
+           is_asked_for(options, tile_of(text + 1 + strlen(name), extension));
 }
 
 /* Whether a file beside the cage has the name of a texture that the bake is
@@ -191,16 +192,20 @@ is_texture(const char *cage, const request *asked, const char *file)
     if (strncasecmp(file, base_of(cage), size) != 0)
         return false;
     file += size;
-    if (is_asked_for(options, tile_of(file, asked->extension)) ||
+    if (is_asked_for(
+            options,
+            tile_of(file, osdtex_texture_extension(asked->type, -1))) ||
         (options->preview_png && is_asked_for(options, tile_of(file, ".png"))))
         return true;
     for (int kind = 1; kind < KIND_COUNT; ++kind)
         if (options->extras & 1u << (kind - 1) &&
-            is_tile_of(options, file, KINDS[kind] + 1))
+            is_tile_of(options, file, KINDS[kind] + 1, ".exr"))
             return true;
     for (int kind = 0; kind < OSDTEX_MAP_KINDS; ++kind)
         if (asked->maps & 1u << kind &&
-            is_tile_of(options, file, osdtex_map_kind_name(kind)))
+            is_tile_of(
+                options, file, osdtex_map_kind_name(kind),
+                osdtex_texture_extension(asked->type, kind)))
             return true;
     return false;
 }
@@ -242,9 +247,9 @@ add_textures(otx_path_list *list, const char *cage, const request *asked)
 void
 otx_bake_outputs_list(
     const char *cage, const osdtex_bake_options *options, uint32_t maps,
-    const char *extension, otx_path_list *out)
+    osdtex_texture_type type, otx_path_list *out)
 {
-    const request asked = {options, maps, extension};
+    const request asked = {options, maps, type};
 
     add(out, cage, "_cage.obj");
     add(out, cage, "_cage.mtl");
@@ -258,9 +263,9 @@ otx_bake_outputs_list(
 bool
 otx_bake_outputs_may_be(
     const char *cage, const osdtex_bake_options *options, uint32_t maps,
-    const char *extension, const char *path)
+    osdtex_texture_type type, const char *path)
 {
-    const request asked = {options, maps, extension};
+    const request asked = {options, maps, type};
     otx_path_list pair = {0};
     bool same;
 

@@ -17,25 +17,25 @@
  *
  *   cage       FOLDER/NAME_cage.obj; the others are beside it
  *   maps       bit k: the bake has maps of kind k
- *   extension  of the colour's textures: ".exr" or ".png" */
+ *   type       of the textures; ANY stands for EXR */
 bool otx_bake_outputs_are_done(
     const char *cage, const osdtex_bake_options *options, uint32_t maps,
-    const char *extension, const char hash[OSDTEX_HASH_BYTES]);
+    osdtex_texture_type type, const char hash[OSDTEX_HASH_BYTES]);
 
 /* Adds the files that a bake writes: the texts, and those of the textures asked
  * for that are there already, since which tiles there will be is not known yet.
  *
- *   cage, maps, extension  as above */
+ *   cage, maps, type  as above */
 void otx_bake_outputs_list(
     const char *cage, const osdtex_bake_options *options, uint32_t maps,
-    const char *extension, otx_path_list *out);
+    osdtex_texture_type type, otx_path_list *out);
 
 /* Whether the name of another output may be that of a texture of the bake.
  *
- *   cage, maps, extension  as above
+ *   cage, maps, type  as above
  *   path                   NULL allowed */
 bool otx_bake_outputs_may_be(
     const char *cage, const osdtex_bake_options *options, uint32_t maps,
-    const char *extension, const char *path);
+    osdtex_texture_type type, const char *path);
 
 #endif

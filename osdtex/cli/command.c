@@ -253,8 +253,9 @@ static const otx_command commands[] = {
      "osdtex map shirt.obj weave.exr -o out/shirt.obj --scale 12 --level 3 \\\n"
      "    --json-report out/shirt.json\n"
      "osdtex map scan.obj bark.png -o out/scan.obj --scheme none\n",
-     "DIR/NAME.obj; NAME.mtl and NAME.exr are written beside it", map_flags,
-     otx_map_command_run, true},
+     "DIR/NAME.obj; NAME.mtl and NAME.exr are written beside it. NAME.png, "
+     "NAME.tif or NAME.jpg: the same with such a texture",
+     map_flags, otx_map_command_run, true},
     {"tiles", "EXEMPLAR", 1, 1, "make a tiled texture from a picture",
      "Makes square tiles that meet exactly on any quad mesh, at edges, "
      "vertices and\nmip levels: osdtex map CAGE.obj TILES.exr --method tile. "
@@ -287,7 +288,8 @@ static const otx_command commands[] = {
      "osdtex bake --from pebbles.osdtex -o large.obj --resolution 8192\n"
      "osdtex bake shirt.obj weave.exr -o out/shirt.obj --uvs atlas \\\n"
      "    --texels-per-unit 40 --preview-png\n",
-     "DIR/NAME.obj: what is written is called after NAME, and beside it",
+     "DIR/NAME.obj: what is written is called after NAME, and beside it. "
+     "NAME.png, NAME.tif or NAME.jpg: the same with such textures",
      bake_flags, otx_bake_command_run, true},
     {"edit", "MAP.osdtex", 1, 1, "change a saved mapping in a part of it",
      "Covers again what the constraints of a file hold and reach, or the spot "

@@ -106,6 +106,7 @@ read_saved(otx_session *session, job *j)
     options.from = values->text[OTX_FLAG_FROM];
     options.to = j->request.exemplar_options.to;
     options.receiver = j->request.exemplar_options.receiver;
+    options.texture_type = j->request.exemplar_options.texture_type;
     options.heal = j->request.map_options.heal;
     options.place = j->request.map_options.place;
     options.without_figures = !j->request.report;

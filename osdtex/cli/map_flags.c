@@ -26,14 +26,23 @@ name_beside(const char *obj, const char *suffix, char out[OTX_MAP_PATH_BYTES])
            OTX_MAP_PATH_BYTES;
 }
 
-/* What textures are: PNG for the web, unless --to names their space. */
+/* What textures are: what -o says, else PNG for the web, unless --to names
+ * their space. */
+static osdtex_texture_type
+texture_type(const otx_map_flags *r)
+{
+    const osdtex_exemplar_options *e = &r->exemplar_options;
+
+    if (e->texture_type != OSDTEX_TEXTURE_ANY)
+        return e->texture_type;
+    return e->receiver == OSDTEX_RECEIVER_WEB && !e->to ? OSDTEX_TEXTURE_PNG
+                                                        : OSDTEX_TEXTURE_EXR;
+}
+
 static const char *
 texture_extension(const otx_map_flags *r)
 {
-    return r->exemplar_options.receiver == OSDTEX_RECEIVER_WEB &&
-                   !r->exemplar_options.to
-               ? ".png"
-               : ".exr";
+    return osdtex_texture_extension(texture_type(r), -1);
 }
 
 /* NAME.exr, or of several exemplars NAME_1.exr and so on. */
@@ -92,9 +101,24 @@ name_map(
 
     return (kinds_of(r, k) & 1u << kind) &&
            snprintf(
-               out, OTX_MAP_PATH_BYTES, "%.*s_%s.exr",
+               out, OTX_MAP_PATH_BYTES, "%.*s_%s%s",
                (int)(strrchr(color, '.') - color), color,
-               osdtex_map_kind_name(kind)) < OTX_MAP_PATH_BYTES;
+               osdtex_map_kind_name(kind),
+               osdtex_texture_extension(texture_type(r), kind)) <
+               OTX_MAP_PATH_BYTES;
+}
+
+/* The textures that the suffix of the output asks for. False where it is none
+ * that there is. */
+static bool
+take_suffix(const char *path, osdtex_texture_type *out)
+{
+    if (otx_value_has_extension(path, ".obj"))
+        return true;
+    for (*out = OSDTEX_TEXTURE_EXR; *out <= OSDTEX_TEXTURE_JPEG; ++*out)
+        if (otx_value_has_extension(path, osdtex_texture_extension(*out, -1)))
+            return true;
+    return false;
 }
 
 /* NAME.mtl and NAME.exr beside NAME.obj, NAME_cage.obj and NAME_cage.mtl of a
@@ -106,13 +130,17 @@ name_outputs(otx_map_flags *r)
     const size_t length = path ? strlen(path) : 0;
     char *name;
 
-    if (!path || !otx_value_has_extension(path, ".obj") ||
+    if (!path || !take_suffix(path, &r->exemplar_options.texture_type) ||
         path[length - 5] == '/' || length >= OTX_MAP_PATH_BYTES)
     {
-        otx_session_refuse("the output is called NAME.obj: -o DIR/NAME.obj");
+        otx_session_refuse(
+            "the output is called NAME.obj: -o DIR/NAME.obj; NAME.png, "
+            "NAME.tif or NAME.jpg asks for such textures");
         return false;
     }
     memcpy(r->obj, path, length + 1);
+    if (r->exemplar_options.texture_type != OSDTEX_TEXTURE_ANY)
+        memcpy(r->obj + length - 4, ".obj", 5);
     memcpy(r->mtl, path, length + 1);
     r->mtl[length - 4] = '\0';
     name = strrchr(r->mtl, '/');
@@ -276,7 +304,7 @@ pictures_are_apart(const otx_map_flags *r)
 
     for (int i = 0; r->bakes && i < 3; ++i)
         if (otx_bake_outputs_may_be(
-                r->cage_obj, &r->bake_options, UINT32_MAX, texture_extension(r),
+                r->cage_obj, &r->bake_options, UINT32_MAX, texture_type(r),
                 others[i]))
         {
             otx_session_refuse(
@@ -370,6 +398,14 @@ otx_map_flags_parse(
 {
     if (!begin(values, bake_only, r) || !name_outputs(r) || !parse_mapping(r))
         return false;
+    if (r->exemplar_options.texture_type > OSDTEX_TEXTURE_EXR &&
+        r->exemplar_options.to)
+    {
+        otx_session_refuse(
+            "textures of integers are sRGB, so --to has no say; leave it out, "
+            "or write EXR: -o NAME.obj");
+        return false;
+    }
     /* Then the textures are PNG themselves. */
     if (strcmp(texture_extension(r), ".png") == 0)
         r->bake_options.preview_png = 0;
@@ -418,8 +454,7 @@ otx_map_flags_outputs(const otx_map_flags *r, otx_path_list *out)
             otx_path_list_add(out, path);
     if (r->bakes)
         otx_bake_outputs_list(
-            r->cage_obj, &r->bake_options, all_kinds(r), texture_extension(r),
-            out);
+            r->cage_obj, &r->bake_options, all_kinds(r), texture_type(r), out);
     otx_path_list_add(out, r->preview);
     otx_path_list_add(out, r->report);
     otx_path_list_add(out, r->save);
@@ -455,5 +490,5 @@ otx_map_flags_is_done(
     return maps_are_done(r, hash) &&
            (!r->bakes || otx_bake_outputs_are_done(
                              r->cage_obj, &r->bake_options, all_kinds(r),
-                             texture_extension(r), hash));
+                             texture_type(r), hash));
 }

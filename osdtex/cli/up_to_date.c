@@ -2,6 +2,7 @@
 #include "cli/up_to_date.h"
 
 #include "cli/guard.h"
+#include "cli/value.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -70,9 +71,21 @@ put_files(FILE *out, osdtex_context *context, const otx_flag_values *values)
     return known;
 }
 
+/* Where results go does not count, but for what its suffix says of textures. */
+static void
+put_suffix(FILE *out, const otx_flag_values *values)
+{
+    static const char *const suffixes[] = {".exr", ".png", ".tif", ".jpg"};
+
+    for (int i = 0; values->text[OTX_FLAG_OUTPUT] && i < 4; ++i)
+        if (otx_value_has_extension(values->text[OTX_FLAG_OUTPUT], suffixes[i]))
+            fprintf(out, "textures %s\n", suffixes[i]);
+}
+
 static void
 put_flags(FILE *out, const otx_flag_values *values)
 {
+    put_suffix(out, values);
     for (const otx_flag_id *id = values->ids; *id != OTX_FLAG_COUNT; ++id)
         if (values->text[*id] && otx_up_to_date_is_part(*id))
             fprintf(

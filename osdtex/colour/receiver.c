@@ -55,22 +55,56 @@ own_space(
         r->name, r->interop_id);
 }
 
+/* Files of integers: programs take them to be sRGB, whoever reads them. */
+static otx_status
+resolve_integers(
+    otx_run *run, const otx_colour *colour, const char *to,
+    otx_texture_type type, otx_receiver_choice *out)
+{
+    static const char *const names[OTX_TEXTURE_COUNT] = {
+        [OTX_TEXTURE_PNG] = "8-bit PNG",
+        [OTX_TEXTURE_TIFF] = "16-bit TIFF",
+        [OTX_TEXTURE_JPEG] = "JPEG"};
+
+    if (to && to[0])
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, stage, OTX_NOWHERE,
+            "textures of integers are sRGB, so {to} has no say; leave it out, "
+            "or write EXR");
+    out->space = otx_colour_known_by_id(colour, "lin_rec709_scene");
+    if (!out->space)
+        return otx_fail(
+            run, OSDTEX_ERROR_COLOUR, stage, otx_where_file(colour->path),
+            "the configuration has no linear Rec.709, which textures of "
+            "integers are made in; write EXR");
+    out->type = type;
+    otx_note(
+        run, OSDTEX_SEVERITY_INFO, stage, OTX_NOWHERE,
+        "output space: sRGB, as %s textures are read", names[type]);
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_receiver_resolve(
     otx_run *run, const otx_colour *colour, otx_receiver receiver,
-    const char *to, otx_receiver_choice *out)
+    const char *to, otx_texture_type type, otx_receiver_choice *out)
 {
     const row *r = &rows[receiver];
     const bool own = receiver != OTX_RECEIVER_ANY && !(to && to[0]);
 
-    *out = (otx_receiver_choice){0};
+    *out = (otx_receiver_choice){.type = OTX_TEXTURE_EXR};
+    if (type > OTX_TEXTURE_EXR)
+        return resolve_integers(run, colour, to, type, out);
     /* A program that works by $OCIO has the same scene_linear as we. */
     if (!own || (r->reads_environment && colour->is_from_environment))
         return otx_colour_resolve_linear(run, colour, to, &out->space);
     OTX_TRY(own_space(run, colour, r, &out->space));
-    out->as_png = receiver == OTX_RECEIVER_WEB;
+    if (receiver == OTX_RECEIVER_WEB && type == OTX_TEXTURE_ANY)
+        out->type = OTX_TEXTURE_PNG;
     otx_note(
         run, OSDTEX_SEVERITY_INFO, stage, OTX_NOWHERE,
-        "output space: '%s' ({for} %s)%s", out->space, r->name, r->advice);
+        "output space: '%s' ({for} %s)%s", out->space, r->name,
+        type == OTX_TEXTURE_EXR && receiver == OTX_RECEIVER_WEB ? ""
+                                                                : r->advice);
     return OSDTEX_OK;
 }

@@ -35,7 +35,7 @@ typedef struct build
     const char *source_space;
     const otx_decoder *decoder; /* of the file's numbers to it; NULL none */
     const char *linear_space;
-    bool as_png;
+    otx_texture_type type;
     const char *pixel_space; /* what `linear` is in, where --to is data */
     const char *work_space;  /* what `work` is in; not a matter of --to */
     const char *match_space; /* NULL: the work picture with the sRGB curve */
@@ -347,6 +347,8 @@ resolve_spaces(build *b)
     {
         b->linear_space = b->pixel_space = b->source_space;
         b->work_space = b->match_space = b->source_space;
+        b->type =
+            input->type == OTX_TEXTURE_ANY ? OTX_TEXTURE_EXR : input->type;
         otx_note(
             b->run, OSDTEX_SEVERITY_INFO, stage, OTX_NOWHERE,
             "'%s' holds data: the pixels pass unchanged and are compared as "
@@ -357,9 +359,9 @@ resolve_spaces(build *b)
     otx_receiver_choice choice;
 
     OTX_TRY(otx_receiver_resolve(
-        b->run, b->colour, input->receiver, input->to, &choice));
+        b->run, b->colour, input->receiver, input->to, input->type, &choice));
     b->linear_space = choice.space;
-    b->as_png = choice.as_png;
+    b->type = choice.type;
     /* To data nothing is converted: the pixels stay in the input space. */
     b->pixel_space = otx_ocio_is_data(config, b->linear_space)
                          ? b->source_space
@@ -422,7 +424,8 @@ record(build *b)
 
     out->embedding = b->input->embedding;
     out->receiver = b->input->receiver;
-    out->as_png = b->as_png;
+    out->type = b->type;
+    out->is_data = b->is_data;
     out->has_chromaticities = otx_colour_chromaticities(
         b->colour, b->linear_space, out->chromaticities);
     if (keep(b, b->input->source.path, &out->source_path) &&

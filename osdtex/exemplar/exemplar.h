@@ -48,7 +48,8 @@ typedef struct otx_exemplar
     float chromaticities[8];   /* of linear_space: R, G, B, W xy pairs */
     otx_embedding embedding;   /* of `match` */
     otx_receiver receiver;     /* for whom `linear` is written */
-    bool as_png;               /* and how, see otx_receiver_choice */
+    otx_texture_type type;     /* and as which files */
+    bool is_data;              /* no colours: files have no curve on it */
     otx_tile_layout tiles;     /* of a tiled texture; else `cell` is 0 */
     otx_companions companions; /* the other maps of its set */
     /* Of a stack, of which the pictures above are the slice in the middle;
@@ -82,6 +83,7 @@ typedef struct otx_exemplar_input
     const char *hash;         /* of the file's bytes, NULL unknown */
     const char *to;           /* --to, NULL role scene_linear */
     otx_receiver receiver;    /* --for */
+    otx_texture_type type;    /* of the files that are written */
     const char *match_space;  /* --match-space, NULL role color_picking */
     otx_embedding embedding;
     otx_exemplar_wrap wrap;

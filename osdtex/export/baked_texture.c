@@ -4,8 +4,7 @@
 
 #include "bake/bake.h"
 #include "export/companion_files.h"
-#include "export/texture_file.h"
-#include "file/exr.h"
+#include "export/texture_stream.h"
 
 #include <string.h>
 
@@ -56,63 +55,42 @@ otx_baked_texture_lay_out(
     return OSDTEX_OK;
 }
 
-/* Where blocks go. */
-typedef struct target
-{
-    otx_exr_writer *exr; /* NULL: into the image */
-    int32_t map;         /* whose blocks are taken; -1 the colour's */
-    otx_image image;
-    otx_exr_chunk chunks[OTX_BAKE_SLOTS];
-} target;
-
 static void
 take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 {
-    target *t = user;
-    const otx_bake_block taken = otx_bake_block_of(block, t->map);
-
-    if (t->exr)
-        otx_exr_pack(
-            t->exr, lane, block->level, block->x, block->y, taken.pixels,
-            taken.stride, &t->chunks[slot]);
-    else
-        otx_bake_copy(&taken, &t->image);
+    otx_texture_stream_take(user, slot, lane, block);
 }
 
 static otx_status
 put(void *user, int32_t slot, int32_t level, int32_t x, int32_t y)
 {
-    target *t = user;
-
-    return t->exr ? otx_exr_put(t->exr, level, x, y, &t->chunks[slot])
-                  : OSDTEX_OK;
+    return otx_texture_stream_put(user, slot, level, x, y);
 }
 
-/* The blocks of a bake, or of one of its maps, as an EXR. */
+/* The blocks of a bake, or of one of its maps, as a file: an EXR by `options`,
+ * where that is not NULL. */
 static otx_status
-write_exr(
+write_file(
     otx_run *run, otx_atomic_file_set *set, const char *path,
-    const otx_exr_options *options, const otx_bake *bake, int32_t map)
+    const otx_exemplar *exemplar, const otx_exr_options *options,
+    const otx_bake *bake, int32_t map)
 {
-    const int32_t side = bake->source.layout->side;
-    const otx_exr_size size = {
-        side, side,
+    const int32_t channels =
         map < 0 ? bake->source.channels
-                : otx_companion_channels((otx_companion_kind)map)};
-    target *t = OTX_ZNEW(run->scratch, target, 1);
+                : otx_companion_channels((otx_companion_kind)map);
+    otx_texture_stream *stream = OTX_ZNEW(run->scratch, otx_texture_stream, 1);
     const otx_bake_sink sink = {
-        .take = take, .put = put, .user = t, .share = 1.0};
+        .take = take,
+        .put = put,
+        .user = stream,
+        .level_count = options ? 0 : 1,
+        .share = 1.0};
 
-    if (!t)
-        return otx_fail_memory(run, STAGE);
-    t->map = map;
-    OTX_TRY(otx_exr_begin(run, set, path, size, options, &t->exr));
-    for (int32_t i = 0; i < OTX_BAKE_SLOTS; ++i)
-        t->chunks[i].bytes =
-            OTX_NEW(run->scratch, uint8_t, otx_exr_packed_bytes(t->exr));
-    OTX_TRY(otx_run_ok(run));
+    OTX_TRY(otx_texture_stream_begin(
+        run, set, path, bake->source.layout->side, channels, map, options,
+        stream));
     OTX_TRY(otx_bake_tile(run, bake, 0, &sink));
-    return otx_exr_end(t->exr);
+    return otx_texture_stream_end(run, set, exemplar, stream);
 }
 
 static otx_exr_options
@@ -129,24 +107,6 @@ color_options(const otx_exemplar *exemplar)
     return options;
 }
 
-static otx_status
-write_png(
-    otx_run *run, otx_atomic_file_set *set, const char *path, otx_bake *bake)
-{
-    const int32_t side = bake->source.layout->side;
-    target *t = OTX_ZNEW(run->scratch, target, 1);
-    const otx_bake_sink sink = {
-        .take = take, .put = put, .user = t, .level_count = 1, .share = 1.0};
-
-    if (!t)
-        return otx_fail_memory(run, STAGE);
-    t->map = -1;
-    OTX_TRY(otx_image_create(
-        run, run->scratch, side, side, bake->source.channels, &t->image));
-    OTX_TRY(otx_bake_tile(run, bake, 0, &sink));
-    return otx_texture_file_write_png(run, set, path, &t->image);
-}
-
 /* The map of a kind, where an exemplar has it. */
 static otx_status
 write_map(
@@ -160,14 +120,18 @@ write_map(
         .maps = 1u << kind,
         .maps_alone = true,
         .normals_y_down = exemplars->companions.written_y_down};
-    const char *path = otx_companion_files_path(run, color, kind);
+    const char *path =
+        otx_companion_files_path(run, color, exemplars->type, kind);
+    const bool is_exr = otx_companion_files_is_exr(exemplars->type, kind);
     otx_bake bake;
 
     if (!path)
         return otx_fail_memory(run, STAGE);
     OTX_TRY(otx_bake_create(run, mapping, exemplars, layout, &options, &bake));
     return bake.maps.texels.channels > 0
-               ? write_exr(run, set, path, &file, &bake, (int32_t)kind)
+               ? write_file(
+                     run, set, path, exemplars, is_exr ? &file : NULL, &bake,
+                     (int32_t)kind)
                : OSDTEX_OK;
 }
 
@@ -182,9 +146,9 @@ otx_baked_texture_write(
     otx_bake bake;
 
     OTX_TRY(otx_bake_create(run, mapping, exemplars, layout, &options, &bake));
-    OTX_TRY(
-        exemplars->as_png ? write_png(run, set, path, &bake)
-                          : write_exr(run, set, path, &file, &bake, -1));
+    OTX_TRY(write_file(
+        run, set, path, exemplars,
+        exemplars->type > OTX_TEXTURE_EXR ? NULL : &file, &bake, -1));
     for (int k = 0; k < OTX_COMPANION_COUNT; ++k)
         OTX_TRY(write_map(
             run, set, path, mapping, exemplars, layout, (otx_companion_kind)k));

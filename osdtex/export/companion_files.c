@@ -2,6 +2,9 @@
  */
 #include "export/companion_files.h"
 
+#include "export/texture_file.h"
+#include "file/png_file.h"
+#include "file/tiff_write.h"
 #include "image/pyramid.h"
 
 #include <string.h>
@@ -19,9 +22,31 @@ otx_companion_files_options(otx_companion_kind kind)
     return options;
 }
 
+/* Of the file of a map. */
+static otx_texture_type
+type_of(otx_texture_type type, otx_companion_kind kind)
+{
+    if (type <= OTX_TEXTURE_EXR || type == OTX_TEXTURE_TIFF)
+        return type;
+    return kind == OTX_COMPANION_HEIGHT ? OTX_TEXTURE_EXR : OTX_TEXTURE_PNG;
+}
+
+const char *
+otx_companion_files_extension(otx_texture_type type, otx_companion_kind kind)
+{
+    return otx_texture_file_type_extension(type_of(type, kind));
+}
+
+bool
+otx_companion_files_is_exr(otx_texture_type type, otx_companion_kind kind)
+{
+    return type_of(type, kind) <= OTX_TEXTURE_EXR;
+}
+
 const char *
 otx_companion_files_path(
-    otx_run *run, const char *color, otx_companion_kind kind)
+    otx_run *run, const char *color, otx_texture_type type,
+    otx_companion_kind kind)
 {
     const char *name = otx_companion_name(kind);
     const size_t base = (size_t)(strrchr(color, '.') - color);
@@ -33,21 +58,22 @@ otx_companion_files_path(
     memcpy(path, color, base);
     path[base] = '_';
     strcpy(path + base + 1, name);
-    strcat(path + base, ".exr");
+    strcat(path + base, otx_companion_files_extension(type, kind));
     return path;
 }
 
 otx_data_maps
 otx_companion_files_names(
-    otx_run *run, const char *name, const otx_companions *companions)
+    otx_run *run, const char *name, otx_texture_type type,
+    const otx_companions *companions)
 {
     const char *names[OTX_COMPANION_COUNT];
 
     for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
-        names[k] =
-            companions->maps[k].is_there
-                ? otx_companion_files_path(run, name, (otx_companion_kind)k)
-                : NULL;
+        names[k] = companions->maps[k].is_there
+                       ? otx_companion_files_path(
+                             run, name, type, (otx_companion_kind)k)
+                       : NULL;
     return (otx_data_maps){
         .normal = names[OTX_COMPANION_NORMAL],
         .normal_y_down = companions->written_y_down,
@@ -83,6 +109,16 @@ take_out(
                           : from[c];
     }
     return OSDTEX_OK;
+}
+
+otx_status
+otx_companion_files_write_integers(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    otx_texture_type type, bool is_height, const otx_image *image)
+{
+    return type == OTX_TEXTURE_TIFF
+               ? otx_tiff_write(run, set, path, image, is_height ? 32 : 16)
+               : otx_png_file_write_data(run, set, path, image);
 }
 
 static void
@@ -136,6 +172,10 @@ write_map(
     OTX_TRY(make_levels(run, exemplar, &map, &levels));
     for (int32_t i = 0; kind == OTX_COMPANION_NORMAL && i < levels.count; ++i)
         encode(&levels.levels[i], exemplar->companions.written_y_down);
+    if (!otx_companion_files_is_exr(exemplar->type, kind))
+        return otx_companion_files_write_integers(
+            run, set, path, exemplar->type, kind == OTX_COMPANION_HEIGHT,
+            &levels.levels[0]);
     options.wrap_x = exemplar->tiles.cell == 0 && exemplar->wrap_x;
     options.wrap_y = exemplar->tiles.cell == 0 && exemplar->wrap_y;
     options.levels = levels.levels + 1;
@@ -156,8 +196,8 @@ otx_companion_files_write(
         if (!exemplar->companions.maps[k].is_there)
             continue;
         OTX_TRY(write_map(
-            run, set, otx_companion_files_path(run, path, kind), exemplar, kind,
-            width));
+            run, set, otx_companion_files_path(run, path, exemplar->type, kind),
+            exemplar, kind, width));
         otx_arena_release(run->scratch, mark);
     }
     return OSDTEX_OK;

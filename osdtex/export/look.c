@@ -7,7 +7,7 @@
 #include "export/companion_files.h"
 #include "export/names.h"
 #include "export/texture_file.h"
-#include "file/exr.h"
+#include "export/texture_stream.h"
 #include "file/mark.h"
 #include "file/mtl.h"
 #include "file/mtlx.h"
@@ -80,6 +80,17 @@ tile_suffix(
         is_color ? "" : otx_bake_kind_name(kind), tile, extension);
 }
 
+/* "_normal.1001.exr" */
+static void
+map_suffix(
+    const writer *w, otx_companion_kind kind, int32_t tile,
+    char suffix[SUFFIX_BYTES])
+{
+    snprintf(
+        suffix, SUFFIX_BYTES, "_%s.%" PRId32 "%s", otx_companion_name(kind),
+        tile, otx_companion_files_extension(w->exemplars->type, kind));
+}
+
 /* How texts name the textures: the number where there is one tile only, since
  * not all readers know the token. */
 static const char *
@@ -105,12 +116,11 @@ map_name(const writer *w, otx_companion_kind kind)
     for (int32_t k = 0; k < count; ++k)
         is_there |= w->exemplars[k].companions.maps[kind].is_there;
     if (w->layout->tile_count == 1)
-        snprintf(
-            suffix, sizeof suffix, "_%s.%" PRId32 ".exr",
-            otx_companion_name(kind), w->layout->tiles[0]);
+        map_suffix(w, kind, w->layout->tiles[0], suffix);
     else
         snprintf(
-            suffix, sizeof suffix, "_%s.<UDIM>.exr", otx_companion_name(kind));
+            suffix, sizeof suffix, "_%s.<UDIM>%s", otx_companion_name(kind),
+            otx_companion_files_extension(w->exemplars->type, kind));
     return is_there ? name_of(w, suffix) : NULL;
 }
 
@@ -137,21 +147,14 @@ color_name(const writer *w)
 /* ---- textures --------------------------------------------------------------
  */
 
-/* A file and what is packed for it. */
-typedef struct stream
-{
-    otx_exr_writer *exr; /* NULL none */
-    otx_exr_chunk chunks[OTX_BAKE_SLOTS];
-} stream;
-
-/* Where blocks go: into the EXR, those of one level into the preview, and their
- * maps into files of their own. */
+/* Where blocks go: into the texture, those of one level into the preview, and
+ * their maps into files of their own. */
 typedef struct target
 {
-    stream color;
+    otx_texture_stream color;
     int32_t preview_level; /* -1 none */
     otx_image preview;
-    stream maps[OTX_COMPANION_COUNT];
+    otx_texture_stream maps[OTX_COMPANION_COUNT];
 } target;
 
 static void
@@ -161,23 +164,9 @@ take(void *user, int32_t slot, int32_t lane, const otx_bake_block *block)
 
     if (block->level == t->preview_level)
         otx_bake_copy(block, &t->preview);
-    if (t->color.exr)
-        otx_exr_pack(
-            t->color.exr, lane, block->level, block->x, block->y, block->pixels,
-            block->stride, &t->color.chunks[slot]);
+    otx_texture_stream_take(&t->color, slot, lane, block);
     for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
-        if (t->maps[k].exr)
-            otx_exr_pack(
-                t->maps[k].exr, lane, block->level, block->x, block->y,
-                block->maps[k], block->map_strides[k],
-                &t->maps[k].chunks[slot]);
-}
-
-static otx_status
-put_one(stream *s, int32_t slot, int32_t level, int32_t x, int32_t y)
-{
-    return s->exr ? otx_exr_put(s->exr, level, x, y, &s->chunks[slot])
-                  : OSDTEX_OK;
+        otx_texture_stream_take(&t->maps[k], slot, lane, block);
 }
 
 static otx_status
@@ -185,9 +174,9 @@ put(void *user, int32_t slot, int32_t level, int32_t x, int32_t y)
 {
     target *t = user;
 
-    OTX_TRY(put_one(&t->color, slot, level, x, y));
+    OTX_TRY(otx_texture_stream_put(&t->color, slot, level, x, y));
     for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
-        OTX_TRY(put_one(&t->maps[k], slot, level, x, y));
+        OTX_TRY(otx_texture_stream_put(&t->maps[k], slot, level, x, y));
     return OSDTEX_OK;
 }
 
@@ -213,20 +202,6 @@ sink_of(const writer *w, otx_texel_kind kind, int32_t tile, target *t)
         .user = t,
         .begin = share * ((double)before * tiles + at),
         .share = share};
-}
-
-/* Room for what is taken and not yet put. */
-static otx_status
-make_slots(otx_run *run, stream *s)
-{
-    const size_t bytes = otx_exr_packed_bytes(s->exr);
-
-    for (int32_t i = 0; i < OTX_BAKE_SLOTS; ++i)
-    {
-        s->chunks[i].bytes = OTX_NEW(run->scratch, uint8_t, bytes);
-        OTX_TRY(otx_run_ok(run));
-    }
-    return OSDTEX_OK;
 }
 
 static otx_exr_options
@@ -285,25 +260,25 @@ write_preview(const writer *w, int32_t tile, otx_image *image)
     return otx_png_file_write(w->run, w->set, path, image, 8);
 }
 
-/* Begins the file `path` of a tile. */
+/* Begins the file `path` of a tile, an EXR by `options`; NULL: by the type of
+ * the exemplar. */
 static otx_status
 begin_stream(
-    const writer *w, const char *path, int32_t channels,
-    otx_exr_options options, stream *s)
+    const writer *w, const char *path, int32_t channels, int32_t map,
+    otx_exr_options *options, otx_texture_stream *s)
 {
     const otx_exr_attribute comment = {
         .name = "comments",
         .kind = OTX_EXR_TEXT,
         .text = w->options->texture_comment};
-    const int32_t side = w->layout->side;
 
-    OTX_TRY(otx_run_ok(w->run));
-    options.attributes = &comment;
-    options.attribute_count = comment.text != NULL;
-    OTX_TRY(otx_exr_begin(
-        w->run, w->set, path, (otx_exr_size){side, side, channels}, &options,
-        &s->exr));
-    return make_slots(w->run, s);
+    if (options)
+    {
+        options->attributes = &comment;
+        options->attribute_count = comment.text != NULL;
+    }
+    return otx_texture_stream_begin(
+        w->run, w->set, path, w->layout->side, channels, map, options, s);
 }
 
 /* The files of the maps that are baked with the colour. */
@@ -314,51 +289,52 @@ begin_maps(const writer *w, const otx_bake *bake, int32_t tile, target *t)
          bake->maps.texels.channels > 0 && k < OTX_COMPANION_COUNT; ++k)
     {
         const otx_companion_kind kind = (otx_companion_kind)k;
+        otx_exr_options exr = otx_companion_files_options(kind);
+        const bool is_exr =
+            otx_companion_files_is_exr(w->exemplars->type, kind);
         char suffix[SUFFIX_BYTES];
 
         if (bake->maps.first[k] < 0)
             continue;
-        snprintf(
-            suffix, sizeof suffix, "_%s.%" PRId32 ".exr",
-            otx_companion_name(kind), w->layout->tiles[tile]);
+        map_suffix(w, kind, w->layout->tiles[tile], suffix);
         OTX_TRY(begin_stream(
-            w, path_of(w, suffix), otx_companion_channels(kind),
-            otx_companion_files_options(kind), &t->maps[k]));
+            w, path_of(w, suffix), otx_companion_channels(kind), k,
+            is_exr ? &exr : NULL, &t->maps[k]));
     }
     return OSDTEX_OK;
 }
 
 static otx_status
-end_maps(target *t)
+end_streams(const writer *w, target *t)
 {
+    OTX_TRY(otx_texture_stream_end(w->run, w->set, w->exemplars, &t->color));
     for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
-        if (t->maps[k].exr)
-            OTX_TRY(otx_exr_end(t->maps[k].exr));
+        OTX_TRY(
+            otx_texture_stream_end(w->run, w->set, w->exemplars, &t->maps[k]));
     return OSDTEX_OK;
 }
 
-/* Bakes the colour of one tile into an 8-bit PNG, and its maps. */
+/* Only an EXR has levels below the first. */
+static bool
+needs_levels(const target *t)
+{
+    bool needed = t->color.exr || t->preview_level > 0;
+
+    for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
+        needed |= t->maps[k].exr != NULL;
+    return needed;
+}
+
 static otx_status
-write_png_tile(const writer *w, const otx_bake *bake, int32_t tile, target *t)
+begin_preview(const writer *w, const otx_bake *bake, target *t)
 {
     const int32_t side = w->layout->side;
-    otx_bake_sink sink = sink_of(w, OTX_TEXEL_COLOR, tile, t);
-    char suffix[SUFFIX_BYTES];
-    const char *path;
 
-    /* Maps are files with all levels. */
-    sink.level_count = bake->maps.texels.channels > 0 ? 0 : 1;
-    tile_suffix(OTX_TEXEL_COLOR, w->layout->tiles[tile], ".png", suffix);
-    path = path_of(w, suffix);
-    OTX_TRY(otx_run_ok(w->run));
-    OTX_TRY(otx_image_create(
-        w->run, w->run->scratch, side, side, bake->source.channels,
-        &t->preview));
-    t->preview_level = 0;
-    OTX_TRY(begin_maps(w, bake, tile, t));
-    OTX_TRY(otx_bake_tile(w->run, bake, tile, &sink));
-    OTX_TRY(end_maps(t));
-    return otx_texture_file_write_png(w->run, w->set, path, &t->preview);
+    for (t->preview_level = 0; side >> t->preview_level > PREVIEW_SIDE;)
+        ++t->preview_level;
+    return otx_image_create(
+        w->run, w->run->scratch, side >> t->preview_level,
+        side >> t->preview_level, bake->source.channels, &t->preview);
 }
 
 /* Bakes one kind of one tile into its file, with the colour its maps. */
@@ -368,26 +344,24 @@ write_tile(
     target *t)
 {
     const otx_texel_kind kind = bake->source.kind;
-    const int32_t side = w->layout->side;
-    const otx_bake_sink sink = sink_of(w, kind, tile, t);
+    const bool is_exr =
+        kind != OTX_TEXEL_COLOR || w->exemplars->type <= OTX_TEXTURE_EXR;
+    otx_bake_sink sink = sink_of(w, kind, tile, t);
+    otx_exr_options exr = exr_options(w, kind);
     char suffix[SUFFIX_BYTES];
 
-    tile_suffix(kind, w->layout->tiles[tile], ".exr", suffix);
+    tile_suffix(
+        kind, w->layout->tiles[tile],
+        is_exr ? ".exr" : otx_texture_file_extension(w->exemplars), suffix);
     if (preview)
-    {
-        for (t->preview_level = 0; side >> t->preview_level > PREVIEW_SIDE;)
-            ++t->preview_level;
-        OTX_TRY(otx_image_create(
-            w->run, w->run->scratch, side >> t->preview_level,
-            side >> t->preview_level, bake->source.channels, &t->preview));
-    }
+        OTX_TRY(begin_preview(w, bake, t));
     OTX_TRY(begin_stream(
-        w, path_of(w, suffix), bake->source.channels, exr_options(w, kind),
+        w, path_of(w, suffix), bake->source.channels, -1, is_exr ? &exr : NULL,
         &t->color));
     OTX_TRY(begin_maps(w, bake, tile, t));
+    sink.level_count = needs_levels(t) ? 0 : 1;
     OTX_TRY(otx_bake_tile(w->run, bake, tile, &sink));
-    OTX_TRY(otx_exr_end(t->color.exr));
-    OTX_TRY(end_maps(t));
+    OTX_TRY(end_streams(w, t));
     return preview ? write_preview(w, w->layout->tiles[tile], &t->preview)
                    : OSDTEX_OK;
 }
@@ -395,8 +369,9 @@ write_tile(
 static otx_status
 write_kind(const writer *w, otx_texel_kind kind)
 {
-    const bool preview = kind == OTX_TEXEL_COLOR && w->options->colour;
-    const bool as_png = kind == OTX_TEXEL_COLOR && w->exemplars->as_png;
+    /* A PNG is its own preview. */
+    const bool preview = kind == OTX_TEXEL_COLOR && w->options->colour &&
+                         w->exemplars->type != OTX_TEXTURE_PNG;
     const otx_bake_options options = {
         kind, w->options->seam_blend, OTX_MAP_TEXTURES_ALL, false,
         w->exemplars->companions.written_y_down};
@@ -415,8 +390,7 @@ write_kind(const writer *w, otx_texel_kind kind)
         t->preview_level = -1;
         if (w->options->udim != 0 && w->layout->tiles[tile] != w->options->udim)
             continue;
-        status = as_png ? write_png_tile(w, &bake, tile, t)
-                        : write_tile(w, &bake, tile, preview, t);
+        status = write_tile(w, &bake, tile, preview, t);
         otx_arena_release(w->run->scratch, mark);
         OTX_TRY(status);
     }

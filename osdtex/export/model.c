@@ -420,7 +420,7 @@ write_mtl(
             .map_kd = names->texture_names[k],
         };
         list[i].maps = otx_companion_files_names(
-            run, names->texture_names[k],
+            run, names->texture_names[k], from->exemplars[k].type,
             from->layout ? &any : &from->exemplars[k].companions);
     }
     OTX_TRY(otx_run_ok(run));

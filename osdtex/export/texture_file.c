@@ -2,7 +2,10 @@
 #include "export/texture_file.h"
 
 #include "file/exr.h"
+#include "file/jpeg_write.h"
 #include "file/png_file.h"
+#include "file/tiff_write.h"
+#include "image/dither.h"
 #include "image/pyramid.h"
 
 #include <math.h>
@@ -49,15 +52,51 @@ separate_levels(
 }
 
 const char *
+otx_texture_file_type_extension(otx_texture_type type)
+{
+    static const char *const extensions[OTX_TEXTURE_COUNT] = {
+        ".exr", ".exr", ".png", ".tif", ".jpg"};
+
+    return extensions[type];
+}
+
+const char *
 otx_texture_file_extension(const otx_exemplar *exemplar)
 {
-    return exemplar->as_png ? ".png" : ".exr";
+    return otx_texture_file_type_extension(exemplar->type);
 }
 
 const char *
 otx_texture_file_interop_id(const otx_exemplar *exemplar)
 {
-    return exemplar->as_png ? "srgb_rec709_scene" : exemplar->interop_id;
+    return exemplar->type > OTX_TEXTURE_EXR && !exemplar->is_data
+               ? "srgb_rec709_scene"
+               : exemplar->interop_id;
+}
+
+/* Whether any texel is not opaque. */
+static bool
+is_transparent(const otx_image *image)
+{
+    const size_t texels = (size_t)image->width * (size_t)image->height;
+
+    for (size_t i = 0; image->channels == 4 && i < texels; ++i)
+        if (image->pixels[4 * i + 3] < 1.0f)
+            return true;
+    return false;
+}
+
+static otx_status
+write_jpeg(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_image *image)
+{
+    if (is_transparent(image))
+        otx_note(
+            run, OSDTEX_SEVERITY_WARNING, "export", otx_where_file(path),
+            "JPEG has no alpha, so what is transparent is opaque in it; write "
+            "PNG, TIFF or EXR to keep it");
+    return otx_jpeg_write(run, set, path, image);
 }
 
 static void
@@ -74,9 +113,9 @@ encode_texel(float *texel, int32_t channels)
 }
 
 otx_status
-otx_texture_file_write_png(
+otx_texture_file_write_integers(
     otx_run *run, otx_atomic_file_set *set, const char *path,
-    const otx_image *image)
+    const otx_exemplar *exemplar, const otx_image *image)
 {
     const size_t texels = (size_t)image->width * (size_t)image->height;
     const size_t channels = (size_t)image->channels;
@@ -88,8 +127,15 @@ otx_texture_file_write_png(
     memcpy(
         encoded.pixels, image->pixels,
         texels * channels * sizeof *image->pixels);
-    for (size_t i = 0; i < texels; ++i)
+    for (size_t i = 0; !exemplar->is_data && i < texels; ++i)
         encode_texel(encoded.pixels + i * channels, image->channels);
+    if (exemplar->type == OTX_TEXTURE_TIFF)
+        return otx_tiff_write(run, set, path, &encoded, 16);
+    if (exemplar->type == OTX_TEXTURE_JPEG)
+        return write_jpeg(run, set, path, &encoded);
+    if (exemplar->is_data)
+        return otx_png_file_write_data(run, set, path, &encoded);
+    otx_dither_8bit(&encoded);
     return otx_png_file_write(run, set, path, &encoded, 8);
 }
 
@@ -101,8 +147,8 @@ otx_texture_file_write(
 {
     otx_exr_options options = otx_exr_options_default();
 
-    if (exemplar->as_png)
-        return otx_texture_file_write_png(run, set, path, image);
+    if (exemplar->type > OTX_TEXTURE_EXR)
+        return otx_texture_file_write_integers(run, set, path, exemplar, image);
     options.tiled = true;
     options.has_chromaticities = exemplar->has_chromaticities;
     memcpy(

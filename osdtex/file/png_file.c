@@ -268,6 +268,7 @@ typedef struct writer
     const char *path;
     const otx_image *image;
     int32_t bits;
+    bool is_data;
     FILE *file;
     png_structp png;
     png_infop info;
@@ -344,10 +345,13 @@ writer_run(writer *w)
     png_set_IHDR(
         w->png, w->info, (png_uint_32)w->image->width,
         (png_uint_32)w->image->height, w->bits,
-        w->image->channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB,
+        w->image->channels == 4   ? PNG_COLOR_TYPE_RGBA
+        : w->image->channels == 1 ? PNG_COLOR_TYPE_GRAY
+                                  : PNG_COLOR_TYPE_RGB,
         PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
         PNG_FILTER_TYPE_DEFAULT);
-    png_set_sRGB(w->png, w->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (!w->is_data)
+        png_set_sRGB(w->png, w->info, PNG_sRGB_INTENT_PERCEPTUAL);
     write_mark(w);
     png_write_info(w->png, w->info);
     for (int32_t y = 0; y < w->image->height; ++y)
@@ -413,13 +417,29 @@ write_temporary(writer *w, const char *temporary)
     return write_file(w);
 }
 
+static otx_status
+write_checked(writer *w, otx_atomic_file_set *set)
+{
+    otx_run *run = w->run;
+    const char *temporary;
+
+    OTX_TRY(check_image(run, w->path, w->image));
+    /* Before the mark: the set may live in the scratch arena too. */
+    OTX_TRY(otx_atomic_file_add(run, set, w->path, &temporary));
+
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const otx_status status = write_temporary(w, temporary);
+
+    otx_arena_release(run->scratch, mark);
+    return status;
+}
+
 otx_status
 otx_png_file_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const otx_image *image, int32_t bits)
 {
     writer w = {.run = run, .path = path, .image = image, .bits = bits};
-    const char *temporary;
 
     if ((bits != 8 && bits != 16) ||
         (image->channels != 3 && image->channels != 4))
@@ -427,13 +447,20 @@ otx_png_file_write(
             run, OSDTEX_ERROR_ARGUMENT, "picture", otx_where_file(path),
             "a PNG has 3 or 4 channels of 8 or 16 bits, not %d of %d",
             image->channels, bits);
-    OTX_TRY(check_image(run, path, image));
-    /* Before the mark: the set may live in the scratch arena too. */
-    OTX_TRY(otx_atomic_file_add(run, set, path, &temporary));
+    return write_checked(&w, set);
+}
 
-    const otx_arena_mark mark = otx_arena_here(run->scratch);
-    const otx_status status = write_temporary(&w, temporary);
+otx_status
+otx_png_file_write_data(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_image *image)
+{
+    writer w = {
+        .run = run, .path = path, .image = image, .bits = 16, .is_data = true};
 
-    otx_arena_release(run->scratch, mark);
-    return status;
+    if (image->channels != 1 && image->channels != 3 && image->channels != 4)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "picture", otx_where_file(path),
+            "a PNG of data has 1, 3 or 4 channels, not %d", image->channels);
+    return write_checked(&w, set);
 }

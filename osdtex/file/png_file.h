@@ -20,4 +20,10 @@ otx_status otx_png_file_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const otx_image *image, int32_t bits);
 
+/* The same of numbers that are no colours: 16 bits, of 1, 3 or 4 channels, not
+ * tagged. */
+otx_status otx_png_file_write_data(
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_image *image);
+
 #endif

@@ -13,6 +13,8 @@ static const char *const EMBEDDINGS[] = {
     "hsv", "hsv-cylinder", "lab", "rgb", NULL};
 static const char *const WRAPS[] = {"auto", "no", "yes", NULL};
 static const char *const TILEABLES[] = {"auto", "keep", "make", NULL};
+static const char *const TEXTURES[] = {
+    "any", "exr", "png", "tiff", "jpeg", NULL};
 static const char *const RECEIVERS[] = {
     "any", "blender", "maya", "houdini", "usd", "web", NULL};
 static const char *const MAPS[] = {
@@ -35,6 +37,7 @@ static const opy_option EXEMPLAR_OPTIONS[] = {
     {"wrap", OPY_CHOICE, PICTURE(wrap), WRAPS},
     {"tileable", OPY_CHOICE, PICTURE(tileable), TILEABLES},
     {"receiver", OPY_CHOICE, PICTURE(receiver), RECEIVERS},
+    {"textures", OPY_CHOICE, PICTURE(texture_type), TEXTURES},
     {"layer", OPY_TEXT, PICTURE(layer), NULL},
     {"maps", OPY_MAPS, PICTURE(maps), MAPS},
     {"normals_y_down", OPY_SWITCH, PICTURE(normals_y_down), NULL},

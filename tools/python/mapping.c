@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+static const char *const TEXTURES[] = {
+    "any", "exr", "png", "tiff", "jpeg", NULL};
 static const char *const RECEIVERS[] = {
     "any", "blender", "maya", "houdini", "usd", "web", NULL};
 static const char *const MAPS[] = {
@@ -37,6 +39,7 @@ static const opy_option READ_OPTIONS[] = {
     {"from_space", OPY_TEXT, READ(from), NULL},
     {"to_space", OPY_TEXT, READ(to), NULL},
     {"receiver", OPY_CHOICE, READ(receiver), RECEIVERS},
+    {"textures", OPY_CHOICE, READ(texture_type), TEXTURES},
     {"maps", OPY_MAPS, READ(maps), MAPS},
     {"heal", OPY_HEAL, READ(heal), NULL},
     {NULL, 0, 0, NULL}};

@@ -23,10 +23,12 @@ check_rows(otx_run *run, const otx_colour *colour, const row *rows, size_t n)
 
         assert_int_equal(
             otx_receiver_resolve(
-                run, colour, rows[i].receiver, rows[i].to, &choice),
+                run, colour, rows[i].receiver, rows[i].to, OTX_TEXTURE_ANY,
+                &choice),
             OSDTEX_OK);
         assert_string_equal(choice.space, rows[i].space);
-        assert_int_equal(choice.as_png, rows[i].as_png);
+        assert_int_equal(
+            choice.type, rows[i].as_png ? OTX_TEXTURE_PNG : OTX_TEXTURE_EXR);
     }
 }
 
@@ -98,10 +100,44 @@ a_space_that_is_missing_is_said(void **state)
     run = test_run_create();
     assert_int_equal(otx_colour_open(run, MINI, NULL, &colour), OSDTEX_OK);
     assert_int_equal(
-        otx_receiver_resolve(run, &colour, OTX_RECEIVER_MAYA, NULL, &choice),
+        otx_receiver_resolve(
+            run, &colour, OTX_RECEIVER_MAYA, NULL, OTX_TEXTURE_ANY, &choice),
         OSDTEX_ERROR_COLOUR);
     assert_non_null(strstr(test_last_message(run), "for maya"));
     assert_non_null(strstr(test_last_message(run), "to"));
+    test_run_destroy(run);
+}
+
+static void
+integers_are_srgb_for_all(void **state)
+{
+    otx_run *run = test_run_create();
+    otx_receiver_choice choice;
+    otx_colour colour;
+
+    (void)state;
+    assert_int_equal(otx_colour_open(run, NULL, NULL, &colour), OSDTEX_OK);
+    for (int type = OTX_TEXTURE_PNG; type < OTX_TEXTURE_COUNT; ++type)
+        for (int r = 0; r < OTX_RECEIVER_COUNT; ++r)
+        {
+            assert_int_equal(
+                otx_receiver_resolve(
+                    run, &colour, (otx_receiver)r, NULL, (otx_texture_type)type,
+                    &choice),
+                OSDTEX_OK);
+            assert_int_equal(choice.type, type);
+            assert_string_equal(choice.space, "Linear Rec.709 (sRGB)");
+        }
+    assert_int_equal(
+        otx_receiver_resolve(
+            run, &colour, OTX_RECEIVER_WEB, NULL, OTX_TEXTURE_EXR, &choice),
+        OSDTEX_OK);
+    assert_int_equal(choice.type, OTX_TEXTURE_EXR);
+    assert_int_equal(
+        otx_receiver_resolve(
+            run, &colour, OTX_RECEIVER_ANY, "ACEScg", OTX_TEXTURE_TIFF,
+            &choice),
+        OSDTEX_ERROR_ARGUMENT);
     test_run_destroy(run);
 }
 
@@ -112,6 +148,7 @@ main(void)
         cmocka_unit_test(everyone_has_a_space),
         cmocka_unit_test(a_configuration_is_shared_by_the_environment),
         cmocka_unit_test(a_space_that_is_missing_is_said),
+        cmocka_unit_test(integers_are_srgb_for_all),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -293,16 +293,18 @@ the_texture_is_the_exemplar_in_halves(void **state)
     tear_down(&f);
 }
 
-/* A PNG is the same colours with the sRGB curve, and the MTL names it. */
+/* A PNG is the same colours with the sRGB curve, dithered so that their mean
+ * stays, and the MTL names it. */
 static void
 the_texture_is_a_png_for_the_web(void **state)
 {
     fixture f;
     otx_picture picture;
+    double sum = 0.0;
 
     (void)state;
     set_up(&f);
-    f.exemplar.as_png = true;
+    f.exemplar.type = OTX_TEXTURE_PNG;
 
     const otx_model_files files = write_model(&f, "m.obj");
 
@@ -314,9 +316,10 @@ the_texture_is_a_png_for_the_web(void **state)
         const float value = fminf(f.exemplar.linear.pixels[i], 1.0f);
         const float expected = otx_embedding_encode(value);
 
-        assert_true(
-            fabsf(picture.image.pixels[i] - expected) <= 0.5f / 255.0f + 1e-6f);
+        assert_true(fabsf(picture.image.pixels[i] - expected) <= 1.0f / 255.0f);
+        sum += picture.image.pixels[i] - expected;
     }
+    assert_true(fabs(sum / (70 * 50 * 3)) < 0.02 / 255.0);
     assert_non_null(strstr(test_read_text(f.run, files.mtl), "map_Kd m.png\n"));
     tear_down(&f);
 }

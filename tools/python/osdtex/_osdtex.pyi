@@ -35,7 +35,8 @@ class Context:
         self, path: Path, *, from_space: Optional[str] = ...,
         to_space: Optional[str] = ..., match_space: Optional[str] = ...,
         embedding: str = ..., wrap: str = ..., tileable: str = ...,
-        receiver: str = ..., layer: Optional[str] = ...,
+        receiver: str = ..., textures: str = ...,
+        layer: Optional[str] = ...,
         maps: Optional[Dictionary[str, Path]] = ...,
         normals_y_down: bool = ..., height_range: float = ...,
         height_middle: float = ...) -> Exemplar: ...
@@ -43,7 +44,8 @@ class Context:
         self, pixels: ArrayLike, *, from_space: Optional[str] = ...,
         to_space: Optional[str] = ..., match_space: Optional[str] = ...,
         embedding: str = ..., wrap: str = ..., tileable: str = ...,
-        receiver: str = ..., maps: Optional[Dictionary[str, Path]] = ...,
+        receiver: str = ..., textures: str = ...,
+        maps: Optional[Dictionary[str, Path]] = ...,
         normals_y_down: bool = ..., height_range: float = ...,
         height_middle: float = ...) -> Exemplar: ...
     def map(
@@ -62,6 +64,7 @@ class Context:
         self, path: Path, *, cage: Optional[Path] = ...,
         exemplar: Optional[Path] = ..., from_space: Optional[str] = ...,
         to_space: Optional[str] = ..., receiver: str = ...,
+        textures: str = ...,
         maps: Optional[Dictionary[str, Path]] = ...,
         heal: Union[float, str] = ...) -> Mapping: ...
     def cancel(self) -> None: ...
