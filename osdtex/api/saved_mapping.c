@@ -12,6 +12,7 @@
 #include "api/saved_lookups.h"
 #include "file/tensors.h"
 #include "mapping/mapping_check.h"
+#include "method/scale_check.h"
 
 #include <limits.h>
 #include <math.h>
@@ -131,6 +132,24 @@ check_level(const loader *l)
                : damaged(l, "its arrays do not fit the cage at its level");
 }
 
+/* As find_file; of what is to be read.
+ *
+ *   what  "cage" */
+static otx_status
+find_named(
+    const loader *l, const char *what, const char *named, const char **out)
+{
+    char sentence[80];
+
+    OTX_TRY(find_file(&l->call->run, l->path, named, out));
+    if (!is_no_file(*out))
+        return OSDTEX_OK;
+    snprintf(
+        sentence, sizeof sentence, "its %s is a folder, a pipe or a device",
+        what);
+    return damaged(l, sentence);
+}
+
 static otx_status
 read_cage(loader *l)
 {
@@ -139,11 +158,7 @@ read_cage(loader *l)
     const char *path = l->options.cage, *topology;
 
     if (!path)
-    {
-        OTX_TRY(find_file(&l->call->run, l->path, l->about.cage_path, &path));
-        if (is_no_file(path))
-            return damaged(l, "its cage is a folder, a pipe or a device");
-    }
+        OTX_TRY(find_named(l, "cage", l->about.cage_path, &path));
     OTX_TRY(osdtex_cage_read(context, path, &l->about.cage, &l->cage));
     OTX_TRY(otx_saved_topology(&l->call->run, &l->cage->cage, &topology));
     if (strcmp(topology, l->about.topology) != 0)
@@ -187,8 +202,7 @@ choose_maps(loader *l, int32_t k, bool swapped)
         s->options.map_count = 0;
     s->options.maps = s->maps;
     for (int32_t i = 0; i < s->options.map_count; ++i)
-        OTX_TRY(find_file(
-            &l->call->run, l->path, s->maps[i].path, &s->maps[i].path));
+        OTX_TRY(find_named(l, "map", s->maps[i].path, &s->maps[i].path));
     return OSDTEX_OK;
 }
 
@@ -202,7 +216,7 @@ read_exemplar(loader *l, int32_t k)
     char name[OTX_TENSOR_NAME_BYTES];
 
     if (!path)
-        OTX_TRY(find_file(&l->call->run, l->path, s->path, &path));
+        OTX_TRY(find_named(l, "exemplar", s->path, &path));
     snprintf(name, sizeof name, "exemplar_texels_%d", (int)k);
     texels = otx_tensors_find(
         l->tensors, name, OTX_TENSOR_I32,
@@ -302,7 +316,19 @@ join_shown(const loader *l, otx_mapping *out)
     return what ? damaged(l, what) : OSDTEX_OK;
 }
 
-/* What is only shown, and may be missing. */
+/* Whether numbers can be drawn, and solved with; NULL can. */
+static bool
+are_finite(const void *doubles, int64_t count)
+{
+    const double *values = doubles;
+
+    for (int64_t i = 0; values && i < count; ++i)
+        if (!isfinite(values[i]))
+            return false;
+    return true;
+}
+
+/* What is shown and gone on from by edits, and may be missing. */
 static otx_status
 join_fields(const loader *l, const otx_level *leaf, otx_mapping *out)
 {
@@ -319,6 +345,10 @@ join_fields(const loader *l, const otx_level *leaf, otx_mapping *out)
         need(l, "cells_open", OTX_TENSOR_U8, leaf->face_count, 0),
         need(l, "defects", OTX_TENSOR_F64, l->about.defect_count, 3),
         l->about.defect_count};
+    if (!are_finite(guide->directions, 3 * (int64_t)leaf->face_count) ||
+        !are_finite(cells->cells, 2 * (int64_t)leaf->corner_count) ||
+        !are_finite(cells->defects, 3 * (int64_t)l->about.defect_count))
+        return damaged(l, "a direction or a cell is not finite");
     if (guide->directions && guide->symmetry > 0)
         out->guide = guide;
     if (cells->cells && cells->open && cells->defects)
@@ -392,8 +422,8 @@ read_pictures(const loader *l, otx_decals *decals)
     for (int32_t k = 0; k < count; ++k)
     {
         list[k].from = l->about.pictures[k].from;
-        OTX_TRY(
-            find_file(run, l->path, l->about.pictures[k].path, &list[k].path));
+        OTX_TRY(find_named(
+            l, "placed picture", l->about.pictures[k].path, &list[k].path));
     }
     return otx_place_call_pictures(
         l->call, list, count, l->mapping->exemplars,
@@ -443,6 +473,8 @@ join(const loader *l)
     m->saved_path = otx_arena_strdup(run->arena, l->path);
     OTX_TRY(otx_call_hold(run, l->surface->arena));
     OTX_TRY(list_exemplars(l));
+    OTX_TRY(otx_scale_check(
+        run, &l->surface->surface, 1.0, &m->exemplars[0], l->about.scale));
     OTX_TRY(otx_method_settings_read(
         run, m->method, l->about.settings, l->about.setting_count,
         &m->exemplar->exemplar, &l->cage->cage, &m->settings));

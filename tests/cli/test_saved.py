@@ -266,6 +266,8 @@ class Saved(ProgramTest):
         for about, words in (
                 ({"level": 10}, "do not fit the cage at its level"),
                 ({"path": str(self.folder / "pipe")}, "is a folder, a pipe"),
+                ({"e_path": str(self.folder / "pipe")},
+                 "exemplar is a folder, a pipe"),
                 ({"path": str(self.folder)}, "is a folder, a pipe")):
             with self.subTest(about):
                 result = self.bake_from(
