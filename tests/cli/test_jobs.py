@@ -23,8 +23,8 @@ class Jobs(ProgramTest):
     def test_outputs_and_report(self):
         picture, report = self.folder / "out.png", self.folder / "out.json"
         result = self.run_map(
-            CAGE, EXEMPLAR, *QUICK, "--preview", picture, "--json-report",
-            report, "--seed", "7")
+            CAGE, EXEMPLAR, *QUICK, "--preview", picture, "--size", "64x48",
+            "--samples", "1", "--json-report", report, "--seed", "7")
         self.assert_exit(result, 0)
         self.assertEqual(
             self.names(),

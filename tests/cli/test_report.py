@@ -86,8 +86,8 @@ class Report(ProgramTest):
         hashes the cage in the same way."""
         report = self.report(
             "map", PLANE, PEBBLES, "--level", "1", "--bake", *BAKE, "--extra",
-            "uv", "--preview", self.folder / "out.png", "--save",
-            self.folder / "out.osdtex")
+            "uv", "--preview", self.folder / "out.png", "--size", "64x48",
+            "--samples", "1", "--save", self.folder / "out.osdtex")
         files = {f["path"].split("/")[-1]: f for f in report["outputs"]}
         self.assertEqual(
             {name: (f["role"], f.get("map")) for name, f in files.items()},

@@ -15,6 +15,7 @@ from program import CAGES, EXEMPLARS, ROOT, SHARED, ProgramTest, main
 CAGE = CAGES / "plane.obj"
 EXEMPLAR = EXEMPLARS / "gravel_tile.png"
 QUICK = ("--level", "0", "--scale", "4")
+SMALL = ("--size", "64x48", "--samples", "1")
 
 # Another value for every flag that takes one; None: a switch.
 CHANGED = {
@@ -115,12 +116,14 @@ class Update(ProgramTest):
 
     def test_what_is_asked_for_besides(self):
         self.assertTrue(self.map_u())
-        for flag, name in (("--json-report", "r.json"), ("--preview", "v.png")):
-            self.assertTrue(self.map_u(flag, self.folder / name))
-            self.assertFalse(self.map_u(flag, self.folder / name))
+        for flag, name, *more in (
+                ("--json-report", "r.json"), ("--preview", "v.png", *SMALL)):
+            words = (flag, self.folder / name, *more)
+            self.assertTrue(self.map_u(*words))
+            self.assertFalse(self.map_u(*words))
             (self.folder / name).write_bytes(
                 (self.folder / name).read_bytes()[:-20])
-            self.assertTrue(self.map_u(flag, self.folder / name))
+            self.assertTrue(self.map_u(*words))
 
     def damage(self, path, again, ways):
         """Whatever is wrong with an output, it is made again as it was."""
@@ -171,7 +174,7 @@ class Update(ProgramTest):
 
     def test_marks_leave_files_valid(self):
         """A PNG's checksums are right after the seal is set."""
-        self.map_u("--preview", self.folder / "a.png")
+        self.map_u("--preview", self.folder / "a.png", *SMALL)
         data = (self.folder / "a.png").read_bytes()
         at, kinds = 8, []
         while at < len(data):
