@@ -52,7 +52,7 @@ TILE = {
     "cages": [str(CAGES / "ngons_and_triangles.obj")],
     "exemplars": [str(EXEMPLARS / "pebbles_tile.png")],
     "methods": ["tile"],
-    "tiles": "--tile-size 64",
+    "tiles": "--tile-size 32",
     "options": {"": "--tile-level 1"},
 }
 TILE_CASE = "ngons_and_triangles.pebbles_tile.tile"
