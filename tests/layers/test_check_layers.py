@@ -1,7 +1,12 @@
 #!/usr/bin/env python3
-"""The checker finds what it is there to find, and the tree is clean."""
+"""The checker finds what it is there to find, and the tree is clean.
+
+    test_check_layers.py            and keeps to its layers
+    test_check_layers.py headers    each header of the tree compiles alone
+"""
 
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -108,9 +113,16 @@ class Tree(unittest.TestCase):
 
 class Project(unittest.TestCase):
     def test_tree_keeps_to_its_layers(self):
+        result = check(ROOT, "--no-compile")
+        self.assertEqual((result.returncode, result.stdout), (0, ""))
+
+
+class Headers(unittest.TestCase):
+    def test_headers_compile_alone(self):
         result = check(ROOT)
         self.assertEqual((result.returncode, result.stdout), (0, ""))
 
 
 if __name__ == "__main__":
-    unittest.main()
+    cases = ["Headers"] if sys.argv[1:] == ["headers"] else ["Tree", "Project"]
+    unittest.main(argv=[sys.argv[0]], defaultTest=cases)
