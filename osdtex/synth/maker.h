@@ -23,6 +23,14 @@ typedef struct otx_maker
     double done, all; /* texels searched, for progress */
 } otx_maker;
 
+enum
+{
+    OTX_MAKER_ROUNDS_COARSEST = 24 /* of the coarsest level, begun by chance */
+};
+
+/* Texels of all charts at a level. */
+int64_t otx_maker_texels(const otx_maker *maker, int32_t level);
+
 /* Passes of the search at a level, round by round the same.
  *
  *   round  of the level, from 0: usage is annealed by it */

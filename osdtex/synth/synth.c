@@ -2,9 +2,7 @@
 #include "synth/synth.h"
 
 #include "synth/maker.h"
-#include "synth/nearest.h"
 #include "synth/start.h"
-#include "synth/vote.h"
 
 #include <math.h>
 
@@ -13,7 +11,6 @@ static const int32_t ROUNDS[] = {1, 2, 4, 8, 16, 16};
 
 enum
 {
-    ROUNDS_COARSEST = 24,
     ROUNDS_CHOSEN = 8, /* there, of a start that has had its own */
     PASSES_FIRST = 4,
     PASSES = 2,
@@ -32,7 +29,7 @@ rounds_at(const otx_maker *m, int32_t level)
     if (level > 0 && level == m->level_count - 1)
         whole = o->rounds > 0               ? o->rounds
                 : o->starts > 1 && o->given ? ROUNDS_CHOSEN
-                                            : ROUNDS_COARSEST;
+                                            : OTX_MAKER_ROUNDS_COARSEST;
     return (int32_t)ceil(effort * whole);
 }
 
@@ -42,97 +39,6 @@ passes_at(const otx_maker *m, int32_t level)
 {
     return level == 0 || (level < FINE && m->options->given) ? PASSES
                                                              : PASSES_FIRST;
-}
-
-/* Of the first random step, in texels of the exemplar. Propagation does at the
- * finest level. */
-static double
-reach_at(const otx_maker *m, int32_t level)
-{
-    const otx_pattern *p = m->pattern;
-    const double whole = p->width > p->height ? p->width : p->height;
-
-    if (level == m->level_count - 1)
-        return whole;
-    if (level == 0)
-        return 0.0;
-    if (m->options->given)
-        return level == 1 ? 6.0 : level == 2 ? 24.0 : 64.0;
-    return level == 1 ? 24.0 : 64.0;
-}
-
-/* Falls to 0 over 7 tenths of the coarsest level's rounds. */
-static double
-usage_at(const otx_maker *m, int32_t level, int32_t round)
-{
-    const double left = 1.0 - round / (0.7 * ROUNDS_COARSEST);
-
-    return level == m->level_count - 1 && left > 0.0 ? m->options->usage * left
-                                                     : 0.0;
-}
-
-static int64_t
-texels_at(const otx_maker *m, int32_t level)
-{
-    int64_t sum = 0;
-
-    for (int32_t k = 0; k < m->count; ++k)
-        sum += (int64_t)m->stacks[k].levels[level].width *
-               m->stacks[k].levels[level].height;
-    return sum;
-}
-
-static otx_status
-say(otx_maker *m, int32_t level)
-{
-    m->done += (double)texels_at(m, level);
-    return otx_progress(
-        m->run, m->options->stage, m->done < m->all ? m->done / m->all : 1.0);
-}
-
-otx_status
-otx_maker_search(otx_maker *m, int32_t level, int32_t round, int32_t passes)
-{
-    const otx_synth_options *o = m->options;
-    const double usage = usage_at(m, level, round);
-    otx_nearest_pass pass = {
-        .seed = o->seed,
-        .reach = reach_at(m, level),
-        .turn = o->turn,
-        .tolerance = o->tolerance,
-        .symmetry = o->symmetry,
-        .usage = usage > 0.0 ? m->usage : NULL};
-
-    for (int32_t i = 0; i < passes; ++i)
-    {
-        pass.refresh = i == 0;
-        pass.stirred = i < 2;
-        pass.hint = i == 0 && round == 0;
-        pass.number = m->passes++;
-        if (pass.usage)
-            otx_occurrence_count(
-                (const otx_canvas *const *)m->canvases, m->count, usage,
-                m->usage);
-        OTX_TRY(otx_nearest_search(
-            m->run, m->canvases, m->charts, m->count, &pass));
-        if (level == 0)
-            OTX_TRY(
-                otx_collar_exchange(m->run, m->canvases, m->collars, m->count));
-        OTX_TRY(say(m, level));
-    }
-    return OSDTEX_OK;
-}
-
-otx_status
-otx_maker_vote(otx_maker *m, int32_t level, bool even)
-{
-    OTX_TRY(otx_vote_trust(m->run, m->canvases, m->count, even));
-    OTX_TRY(otx_collar_exchange(m->run, m->canvases, m->collars, m->count));
-    OTX_TRY(otx_vote_cast(m->run, m->canvases, m->count));
-    if (level > 0 && m->options->histogram > 0.0)
-        OTX_TRY(otx_vote_match_histogram(
-            m->run, m->canvases, m->count, m->options->histogram));
-    return OSDTEX_OK;
 }
 
 static otx_status
@@ -216,7 +122,8 @@ make(otx_maker *m)
         m->finest[k] = &m->stacks[k].levels[0];
     }
     for (int32_t l = 0; l < m->level_count; ++l)
-        m->all += (double)texels_at(m, l) * (PASSES * rounds_at(m, l) + 2);
+        m->all +=
+            (double)otx_maker_texels(m, l) * (PASSES * rounds_at(m, l) + 2);
     for (int32_t l = m->level_count - 1; l >= 0; --l)
         OTX_TRY(make_level(m, l));
     hand_out(m);
