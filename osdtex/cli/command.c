@@ -255,7 +255,7 @@ static const otx_command commands[] = {
      "osdtex map scan.obj bark.png -o out/scan.obj --scheme none\n",
      "DIR/NAME.obj; NAME.mtl and NAME.exr are written beside it. NAME.png, "
      "NAME.tif or NAME.jpg: the same with such a texture",
-     map_flags, otx_map_command_run, true},
+     map_flags, true},
     {"tiles", "EXEMPLAR", 1, 1, "make a tiled texture from a picture",
      "Makes square tiles that meet exactly on any quad mesh, at edges, "
      "vertices and\nmip levels: osdtex map CAGE.obj TILES.exr --method tile. "
@@ -264,7 +264,7 @@ static const otx_command commands[] = {
      "osdtex tiles models/exemplars/gravel_tile.png -o gravel_tiles.exr\n"
      "osdtex tiles wood.exr -o wood_tiles.exr --oriented --for shirt.obj \\\n"
      "    --tile-level 2\n",
-     "an .exr", tiles_flags, otx_tiles_command_run, true},
+     "an .exr", tiles_flags, true},
     {"stack", "EXEMPLAR EXEMPLAR...", 2, 8,
      "make the pictures between two that tile",
      "Makes slices in which the spots or joints of one picture become "
@@ -274,8 +274,7 @@ static const otx_command commands[] = {
      "osdtex stack spots.png stripes.png -o fur.exr\n"
      "osdtex stack cobbles.png bricks.png -o wall.exr --features joints \\\n"
      "    --slices 12 --size 512\n",
-     "an .exr; NAME_mask1.png, ... are written beside it", stack_flags,
-     otx_stack_command_run, true},
+     "an .exr; NAME_mask1.png, ... are written beside it", stack_flags, true},
     {"bake", "CAGE.obj EXEMPLAR", 2, 2,
      "texture a cage and bake the result onto its UVs",
      "Textures the cage as `osdtex map` does, but keeps it as it is: writes\n"
@@ -290,7 +289,7 @@ static const otx_command commands[] = {
      "    --texels-per-unit 40 --preview-png\n",
      "DIR/NAME.obj: what is written is called after NAME, and beside it. "
      "NAME.png, NAME.tif or NAME.jpg: the same with such textures",
-     bake_flags, otx_bake_command_run, true},
+     bake_flags, true},
     {"edit", "MAP.osdtex", 1, 1, "change a saved mapping in a part of it",
      "Covers again what the constraints of a file hold and reach, or the spot "
      "that\n--redo names, so that it continues what is around it; everything "
@@ -300,8 +299,7 @@ static const otx_command commands[] = {
      "osdtex edit pebbles.osdtex --redo 0.2,1.5,0.4,0.1 -o again.osdtex\n"
      "osdtex edit wood.osdtex --constraints comb.json -o combed.osdtex \\\n"
      "    --reach 0.5 --preview combed.png\n",
-     "a .osdtex, another one than MAP.osdtex", edit_flags, otx_edit_command_run,
-     true},
+     "a .osdtex, another one than MAP.osdtex", edit_flags, true},
     {"render", "MODEL.obj", 1, 1, "take a picture of a textured model",
      "Ray-traces an OBJ with the textures that its MTL names. PNG is for the "
      "eye\n(sRGB), EXR is scene-linear. --show field and --show singularities "
@@ -316,7 +314,7 @@ static const otx_command commands[] = {
      "osdtex render wood.obj -o field.png --show field --constraints "
      "field.csv\n",
      "a .png or .exr; NAME.%04d.png or .exr for the frames of a turntable",
-     render_flags, otx_render_command_run, true},
+     render_flags, true},
     {"field", "CAGE.obj", 1, 1, "show or write a direction field on a cage",
      "Solves for the field of directions that textures follow: the smoothest, "
      "or what\nconstraints and --follow ask for. A picture shows its lines, "
@@ -327,7 +325,7 @@ static const otx_command commands[] = {
      "osdtex field shirt.obj -o field.csv --constraints pull.json --symmetry "
      "4\n",
      "a .png or .exr for a picture, a .csv for the directions", field_flags,
-     otx_field_command_run, true},
+     true},
     {"studio", "CAGE.obj EXEMPLAR...", 2, 1 + OTX_STUDIO_EXEMPLARS_MAX,
      "direct a texture by hand, on a page in the browser",
      "Serves a page on which the textured model is turned, looked at and "
@@ -342,7 +340,7 @@ static const otx_command commands[] = {
      "DIR/NAME.obj, for when the page exports; NAME_constraints.json and "
      "NAME_state.json are beside it, and what they hold is gone on from "
      "(default: CAGE_studio.obj beside the cage)",
-     studio_flags, otx_studio_command_run, false},
+     studio_flags, false},
     {"regress", "DIR [CASE...]", 1, OTX_FLAG_OPERANDS_MAX,
      "run a table of cases and compare them with their references",
      "Runs the cases of DIR/table.json and holds them against DIR/reference: "
@@ -352,21 +350,18 @@ static const otx_command commands[] = {
      "no reference.",
      "osdtex regress tests/regress/suite -o /var/tmp/nightly\n"
      "osdtex regress tests/regress/suite -o /var/tmp/nightly --update all\n",
-     "a folder, which is made where it is not there", regress_flags,
-     otx_regress_command_run, false},
+     "a folder, which is made where it is not there", regress_flags, false},
     {"plan", "JOB.json", 1, 1, "write a job for a farm",
      "A job is a list of tasks, each an `osdtex map` or `osdtex bake`. Writes "
      "it as\nmake, Slurm, OpenCue or Deadline take it, and prints how to hand "
      "it over.",
      "osdtex plan shirts.json --engine slurm -o farm/\n"
      "osdtex plan shirts.json -o farm/ && make -k -j 8 -f farm/Makefile\n",
-     "a folder, which is made where it is not there", plan_flags,
-     otx_plan_command_run, false},
+     "a folder, which is made where it is not there", plan_flags, false},
     {"run", "JOB.json", 1, 1, "run a task of a job",
      "Runs one task, unless its outputs were made by this version from the "
      "same\ninputs and options. Paths in the job are relative to its folder.",
-     "osdtex run shirts.json --task 3\n", NULL, run_flags, otx_run_command_run,
-     false},
+     "osdtex run shirts.json --task 3\n", NULL, run_flags, false},
     {"info", "[FILE]", 0, 1,
      "say what a cage, picture, mapping or colour configuration is",
      "Of an OBJ: faces, tags, components, boundary, size. Of a picture: size, "
@@ -377,14 +372,14 @@ static const otx_command commands[] = {
      "osdtex info models/exemplars/pebbles_tile.png\n"
      "osdtex info studio.ocio\n"
      "osdtex info\n",
-     NULL, info_flags, otx_info_command_run, true},
+     NULL, info_flags, true},
     {"methods", "[NAME]", 0, 1, "list the methods, or the settings of one",
      "Settings are given to `osdtex map` with --set KEY=VALUE.",
      "osdtex methods\n"
      "osdtex methods hierarchical\n",
-     NULL, methods_flags, otx_methods_command_run, false},
+     NULL, methods_flags, false},
     {"help", "[COMMAND]", 0, 1, "print help on a command", "",
-     "osdtex help map\n", NULL, help_flags, otx_help_command_run, false},
+     "osdtex help map\n", NULL, help_flags, false},
 };
 
 const otx_command *

@@ -1,7 +1,8 @@
 /* command.h -- the sub-commands, in one table.
  *
- * A sub-command is one row: what it is called, what it takes, two examples, a
- * function. Everything that is printed about it comes from the row. */
+ * A sub-command is one row: what it is called, what it takes, two examples.
+ * Everything that is printed about it comes from the row; dispatch.h does what
+ * it is for. */
 #ifndef OTX_CLI_COMMAND_H
 #define OTX_CLI_COMMAND_H
 
@@ -29,8 +30,7 @@ typedef struct otx_command
     const char *examples;     /* lines */
     const char *output;       /* help on --output; NULL where there is none */
     const otx_flag_id *flags; /* ends with OTX_FLAG_COUNT */
-    int (*run)(const otx_flag_values *values);
-    bool reads_pipes; /* inputs that are pipes are read beforehand */
+    bool reads_pipes;         /* inputs that are pipes are read beforehand */
 } otx_command;
 
 /* NULL behind the end. */
@@ -47,20 +47,5 @@ otx_command_takes(const otx_command *command, const otx_flag_values *values);
 
 /* Help on one of its flags. */
 const char *otx_command_flag_help(const otx_command *command, otx_flag_id flag);
-
-int otx_map_command_run(const otx_flag_values *values);
-int otx_tiles_command_run(const otx_flag_values *values);
-int otx_edit_command_run(const otx_flag_values *values);
-int otx_stack_command_run(const otx_flag_values *values);
-int otx_bake_command_run(const otx_flag_values *values);
-int otx_field_command_run(const otx_flag_values *values);
-int otx_studio_command_run(const otx_flag_values *values);
-int otx_render_command_run(const otx_flag_values *values);
-int otx_regress_command_run(const otx_flag_values *values);
-int otx_plan_command_run(const otx_flag_values *values);
-int otx_run_command_run(const otx_flag_values *values);
-int otx_info_command_run(const otx_flag_values *values);
-int otx_methods_command_run(const otx_flag_values *values);
-int otx_help_command_run(const otx_flag_values *values);
 
 #endif

@@ -1,4 +1,5 @@
 /* edit_command.c -- osdtex edit: a saved mapping, changed in a part of it. */
+#include "cli/dispatch.h"
 #include "cli/edit_flags.h"
 #include "cli/guard.h"
 #include "cli/inputs.h"

@@ -1,5 +1,6 @@
 /* farm_command.c -- osdtex plan and osdtex run: a job for a farm, and a task
  * of it. */
+#include "cli/dispatch.h"
 #include "cli/session.h"
 #include "cli/task.h"
 #include "cli/task_files.h"
@@ -220,7 +221,7 @@ run_task(const otx_flag_values *values, const otx_farm_job *job)
         return OTX_EXIT_IO;
     }
     if (otx_task_parse(job, (int)index, &task))
-        code = task.command->run(&task.values);
+        code = otx_dispatch(task.command, &task.values);
     otx_task_free(&task);
     return code;
 }

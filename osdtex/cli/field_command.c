@@ -1,4 +1,5 @@
 /* field_command.c -- osdtex field: which way a texture would run on a cage. */
+#include "cli/dispatch.h"
 #include "cli/field_flags.h"
 #include "cli/guard.h"
 #include "cli/inputs.h"

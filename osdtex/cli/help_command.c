@@ -1,5 +1,6 @@
 /* help_command.c -- osdtex help. */
 #include "cli/completion.h"
+#include "cli/dispatch.h"
 #include "cli/session.h"
 #include "cli/usage.h"
 

@@ -1,4 +1,5 @@
 /* info_command.c -- osdtex info: what a file is, as osdtex sees it. */
+#include "cli/dispatch.h"
 #include "cli/inputs.h"
 #include "cli/session.h"
 #include "cli/spool.h"

@@ -1,4 +1,5 @@
 /* main.c -- finds the sub-command and runs it. */
+#include "cli/dispatch.h"
 #include "cli/session.h"
 #include "cli/spool.h"
 #include "cli/usage.h"
@@ -36,7 +37,7 @@ run(const otx_command *command, int argc, char **argv)
             command->operands, command->name);
     if (command->reads_pipes && !otx_spool_inputs(&values))
         return OTX_EXIT_IO;
-    return command->run(&values);
+    return otx_dispatch(command, &values);
 }
 
 /* A full disk or a closed pipe behind stdout is an error like any other. */

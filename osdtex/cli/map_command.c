@@ -1,5 +1,6 @@
 /* map_command.c -- osdtex map and osdtex bake: a cage and an exemplar in, a
  * textured model out, or the cage with textures. */
+#include "cli/dispatch.h"
 #include "cli/guard.h"
 #include "cli/map_flags.h"
 #include "cli/saved_files.h"

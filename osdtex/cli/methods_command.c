@@ -1,4 +1,5 @@
 /* methods_command.c -- osdtex methods. */
+#include "cli/dispatch.h"
 #include "cli/session.h"
 
 #include "word/near.h"

@@ -1,4 +1,5 @@
 /* regress_command.c -- osdtex regress: has anything changed? */
+#include "cli/dispatch.h"
 #include "cli/session.h"
 #include "regress/regress.h"
 

@@ -2,6 +2,7 @@
  *
  * A field is not in an OBJ: to be shown it is made anew on the model's own
  * faces, as on a plain mesh. */
+#include "cli/dispatch.h"
 #include "cli/field_flags.h"
 #include "cli/guard.h"
 #include "cli/picture_flags.h"

@@ -1,4 +1,5 @@
 /* stack_command.c -- osdtex stack: pictures along a material axis. */
+#include "cli/dispatch.h"
 #include "cli/guard.h"
 #include "cli/inputs.h"
 #include "cli/saved_files.h"

@@ -1,4 +1,5 @@
 /* studio_command.c -- osdtex studio: a page on which a texture is directed. */
+#include "cli/dispatch.h"
 #include "cli/map_flags.h"
 #include "cli/session.h"
 #include "cli/value.h"

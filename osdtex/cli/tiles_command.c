@@ -1,4 +1,5 @@
 /* tiles_command.c -- osdtex tiles: a tiled texture from a picture. */
+#include "cli/dispatch.h"
 #include "cli/guard.h"
 #include "cli/inputs.h"
 #include "cli/material_flags.h"
