@@ -7,7 +7,7 @@
 #include "base/hash.h"
 #include "exemplar/match_maps.h"
 #include "file/exr_data.h"
-#include "file/picture.h"
+#include "file/picture_read.h"
 
 #include <math.h>
 #include <stdio.h>

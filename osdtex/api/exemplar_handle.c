@@ -10,7 +10,7 @@
 #include "export/companion_files.h"
 #include "export/texture_file.h"
 #include "file/exr_slices.h"
-#include "file/picture.h"
+#include "file/picture_read.h"
 #include "image/opaque.h"
 #include "quilt/period.h"
 #include "quilt/toroid.h"

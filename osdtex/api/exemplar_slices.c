@@ -2,7 +2,7 @@
 #include "api/exemplar_slices.h"
 
 #include "file/exr_slices.h"
-#include "file/picture.h"
+#include "file/picture_read.h"
 
 /* One at a time is in memory as its file has it. */
 static otx_status

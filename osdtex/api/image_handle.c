@@ -5,7 +5,7 @@
 #include "colour/embedding.h"
 #include "file/atomic_file.h"
 #include "file/exr.h"
-#include "file/picture.h"
+#include "file/picture_read.h"
 #include "file/png_file.h"
 #include "image/dither.h"
 

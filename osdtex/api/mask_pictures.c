@@ -1,7 +1,7 @@
 /* mask_pictures.c -- reading masks, tile by tile. */
 #include "api/mask_pictures.h"
 
-#include "file/picture.h"
+#include "file/picture_read.h"
 #include "file/udim_name.h"
 #include "image/udim.h"
 #include "method/demand.h"

@@ -8,7 +8,7 @@
 #include "colour/decoder.h"
 #include "file/mtl.h"
 #include "file/obj.h"
-#include "file/picture.h"
+#include "file/picture_read.h"
 #include "file/udim_name.h"
 #include "image/udim.h"
 #include "render/mapped_scene.h"

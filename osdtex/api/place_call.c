@@ -3,6 +3,7 @@
 
 #include "api/picture_source.h"
 #include "base/hash.h"
+#include "file/picture_read.h"
 #include "file/place_file.h"
 #include "place/place.h"
 

@@ -9,7 +9,7 @@
 #include "bench/workspace.h"
 
 #include "export/look.h"
-#include "file/picture.h"
+#include "file/picture_read.h"
 #include "method/method.h"
 
 #include <math.h>

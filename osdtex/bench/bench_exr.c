@@ -11,7 +11,7 @@
 #include "bench/workspace.h"
 
 #include "file/exr.h"
-#include "file/picture.h"
+#include "file/picture_read.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -11,7 +11,7 @@
 
 #include "file/exr.h"
 #include "file/obj_write.h"
-#include "file/picture.h"
+#include "file/picture_read.h"
 
 #include <math.h>
 #include <stdio.h>

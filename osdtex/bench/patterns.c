@@ -2,7 +2,7 @@
 #include "bench/patterns.h"
 
 #include "base/random.h"
-#include "file/picture.h"
+#include "file/picture_read.h"
 
 /* Smooth noise of one cell size that repeats after n pixels, in [0, 1). */
 static double

@@ -2,8 +2,8 @@
  * the file says about their colours.
  *
  * No colour is converted here. Integers become [0, 1] by division by their
- * maximum; floats are as stored. The format is recognised by the first bytes,
- * never by the extension. See docs/formats-images.md. */
+ * maximum; floats are as stored. picture_read.h reads one. See
+ * docs/formats-images.md. */
 #ifndef OTX_FILE_PICTURE_H
 #define OTX_FILE_PICTURE_H
 
@@ -60,27 +60,9 @@ typedef struct otx_picture
     int32_t part;      /* EXR part, 0 for all others */
 } otx_picture;
 
-/* Reads EXR, PNG, TIFF or JPEG. Pixels and strings are in run->arena; nothing
- * is left there on failure.
- *
- * IO      the file does not open or read
- * FORMAT  not one of the four formats, damaged, or cut short
- * SUPPORT a kind of file that is not read (deep, CMYK, ...), or an EXR whose
- *         layers leave it unclear which is the picture
- * LIMIT   larger than OTX_IMAGE_MAX_SIDE or OTX_PICTURE_MAX_PIXELS
- * NUMERIC a pixel is not finite: the first is named
- * MEMORY  */
-otx_status otx_picture_read(otx_run *run, const char *path, otx_picture *out);
-
 /* For the readers of one format: keeps a copy of an ICC profile. MEMORY. */
 otx_status otx_picture_keep_icc(
     otx_run *run, const uint8_t *bytes, size_t size, otx_picture *out);
-
-/* The same, of an EXR the layer of this name; NULL: see exr_layer.h. Pictures
- * of other kinds have no layers, which is noted. ARGUMENT when there is no such
- * layer. */
-otx_status otx_picture_read_layer(
-    otx_run *run, const char *path, const char *layer, otx_picture *out);
 
 /* For the readers of one format: FORMAT or LIMIT unless the size is one that
  * is read. It is what the file claims, in full, so that no cast can hide it. */

@@ -277,7 +277,7 @@ read_rows(const reader *r, int32_t sample, size_t texel_bytes)
 {
     const uint64_t row_bytes = TIFFScanlineSize64(r->tiff);
     block b = {NULL, row_bytes, 0, 0, (int32_t)r->width, 1, sample};
-    uint8_t *bytes;
+    uint8_t *bytes = NULL;
 
     OTX_TRY(alloc_block(r, row_bytes, r->width * texel_bytes, &bytes));
     b.bytes = bytes;
@@ -296,7 +296,7 @@ static otx_status
 read_tiles(const reader *r, int32_t sample, size_t texel_bytes)
 {
     uint32_t width = 0, height = 0;
-    uint8_t *bytes;
+    uint8_t *bytes = NULL;
     block b = {.sample = sample};
 
     TIFFGetField(r->tiff, TIFFTAG_TILEWIDTH, &width);

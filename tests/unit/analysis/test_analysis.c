@@ -1,7 +1,7 @@
 /* test_analysis.c -- made-up pictures of known class, and photographs. */
 #include "analysis/analysis.h"
 #include "exemplar/exemplar.h"
-#include "file/picture.h"
+#include "file/picture_read.h"
 #include "support.h"
 
 #include "base/random.h"

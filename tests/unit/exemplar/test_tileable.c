@@ -3,7 +3,7 @@
 
 #include "base/random.h"
 #include "colour/embedding.h"
-#include "file/picture.h"
+#include "file/picture_read.h"
 #include "support.h"
 
 #include <math.h>

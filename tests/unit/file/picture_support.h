@@ -7,7 +7,7 @@
 
 #include "base/random.h"
 #include "file/exr.h"
-#include "file/picture.h"
+#include "file/picture_read.h"
 #include "file/png_file.h"
 
 /* Runs a program that is only an oracle. False when it is not installed. */
