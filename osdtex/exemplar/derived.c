@@ -104,20 +104,27 @@ typedef struct resizing
 {
     const otx_texture *from;
     otx_image *to;
+    otx_texture_probes probes; /* of a texel of it */
 } resizing;
 
 static otx_status
 resize_row(void *context, int64_t y, otx_worker *worker)
 {
     const resizing *r = context;
-    const otx_vec2 dx = {1.0 / r->to->width, 0.0};
-    const otx_vec2 dy = {0.0, 1.0 / r->to->height};
+    const otx_vec2 step = {1.0 / r->to->width, 1.0 / r->to->height};
 
     (void)worker;
     for (int32_t x = 0; x < r->to->width; ++x)
-        otx_texture_filter(
-            r->from, (otx_vec2){(x + 0.5) * dx.x, ((double)y + 0.5) * dy.y}, dx,
-            dy, otx_image_at(r->to, x, (int32_t)y));
+    {
+        float values[OTX_IMAGE_MAX_CHANNELS];
+
+        otx_texture_probe(
+            r->from, &r->probes,
+            (otx_vec2){(x + 0.5) * step.x, ((double)y + 0.5) * step.y}, values);
+        memcpy(
+            otx_image_at(r->to, x, (int32_t)y), values,
+            (size_t)r->to->channels * sizeof *values);
+    }
     return OSDTEX_OK;
 }
 
@@ -127,7 +134,7 @@ resize(
     int32_t height, otx_image *out)
 {
     otx_texture texture;
-    resizing r = {&texture, out};
+    resizing r = {.from = &texture, .to = out};
 
     *out = (otx_image){width, height, from->channels, NULL};
     if (!from->pixels)
@@ -136,6 +143,8 @@ resize(
         run, run->scratch, from, e->wrap_x, e->wrap_y, &texture));
     OTX_TRY(
         otx_image_create(run, run->arena, width, height, from->channels, out));
+    r.probes = otx_texture_measure(
+        &texture, (otx_vec2){1.0 / width, 0.0}, (otx_vec2){0.0, 1.0 / height});
     return otx_pool_for(run->pool, height, resize_row, &r);
 }
 
