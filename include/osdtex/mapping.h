@@ -124,6 +124,10 @@ typedef struct osdtex_map_options
      *                "boundary:L": to L scene units along the surface
      *   "creases"    likewise from the creases of the cage
      *   "red" "green" "blue"  what the colours of the cage's vertices say
+     *   "scatter"    a slice by chance, another one every half width of the
+     *                exemplar; "scatter:L": every L scene units
+     *   "map:FILE"   a picture from black to white on the cage's UVs; with
+     *                <UDIM> or <UVTILE> in its name one for each tile
      *
      * and with a minus before it the other way round. NULL: "y". Of other
      * exemplars it says nothing. */

@@ -1,6 +1,8 @@
 /* axis_values.c -- height, bends, what hides and how far, as one number. */
 #include "api/axis_values.h"
 
+#include "api/mask_pictures.h"
+#include "base/random.h"
 #include "base/sort.h"
 #include "bridge/charconv.h"
 #include "render/openness.h"
@@ -12,17 +14,23 @@
 
 static const char STAGE[] = "map";
 
+/* Cells beyond which doubles tell none apart. */
+static const double FAR = 1e12;
+
 /* ---- what an axis says --------------------------------------------------- */
 
 static const char *const NAMES[OTX_AXIS_COUNT] = {
-    "x",         "y",        "z",       "curvature", "ridges", "hollows",
-    "occlusion", "boundary", "creases", "red",       "green",  "blue",
+    "x",        "y",       "z",   "curvature", "ridges", "hollows", "occlusion",
+    "boundary", "creases", "red", "green",     "blue",   "scatter",
 };
+
+static const char MAP[] = "map:";
 
 static bool
 takes_reach(otx_axis_kind kind)
 {
-    return kind == OTX_AXIS_BOUNDARY || kind == OTX_AXIS_CREASES;
+    return kind == OTX_AXIS_BOUNDARY || kind == OTX_AXIS_CREASES ||
+           kind == OTX_AXIS_SCATTER;
 }
 
 static bool
@@ -42,6 +50,12 @@ otx_axis_parse(otx_run *run, const char *text, otx_axis *out)
 
     *out = (otx_axis){.is_reversed = *name == '-'};
     name += out->is_reversed;
+    if (strncmp(name, MAP, strlen(MAP)) == 0 && name[strlen(MAP)])
+    {
+        out->kind = OTX_AXIS_MAP;
+        out->path = name + strlen(MAP);
+        return OSDTEX_OK;
+    }
     colon = strchr(name, ':');
     for (int k = 0; k < OTX_AXIS_COUNT; ++k)
     {
@@ -58,8 +72,9 @@ otx_axis_parse(otx_run *run, const char *text, otx_axis *out)
     return otx_fail(
         run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
         "{along} is x, y, z, curvature, ridges, hollows, occlusion, "
-        "boundary[:LENGTH], creases[:LENGTH], red, green or blue, with a minus "
-        "the other way round, not '%.40s'",
+        "boundary[:LENGTH], creases[:LENGTH], red, green, blue, "
+        "scatter[:LENGTH] or map:FILE, with a minus the other way round, not "
+        "'%.40s'",
         text);
 }
 
@@ -207,6 +222,64 @@ take_colour(
     return OSDTEX_OK;
 }
 
+/* The value of the nearest of points that lie one to a cell of space. */
+static double
+nearest_value(const double at[3], int32_t slices)
+{
+    double best = (double)INFINITY, value = 0.0;
+
+    for (int k = 0; k < 27; ++k)
+    {
+        const int64_t cell[3] = {
+            (int64_t)floor(at[0]) + k % 3 - 1,
+            (int64_t)floor(at[1]) + k / 3 % 3 - 1,
+            (int64_t)floor(at[2]) + k / 9 - 1};
+        const uint64_t name = otx_random_bits(
+            (uint64_t)cell[0], (uint32_t)cell[1], (uint64_t)cell[2]);
+        double square = 0.0;
+
+        for (uint32_t c = 0; c < 3; ++c)
+        {
+            const double d =
+                (double)cell[c] + otx_random_unit(name, c, 0) - at[c];
+
+            square += d * d;
+        }
+        if (square < best)
+        {
+            best = square;
+            value = floor(otx_random_unit(name, 3, 0) * slices) / (slices - 1);
+        }
+    }
+    return value;
+}
+
+/* Another of the slices every so far: whole ones, since a mixture of two that
+ * differ in all but their features is flat. */
+static otx_status
+scatter(
+    otx_run *run, const otx_surface *surface, const otx_axis *a, double width,
+    double *out)
+{
+    const int32_t count = otx_surface_leaf(surface)->vert_count;
+    const double cell = a->reach > 0.0 ? a->reach : 0.5 * width;
+    const int32_t slices = a->slices > 1 ? a->slices : 2;
+
+    for (int32_t v = 0; v < count; ++v)
+    {
+        double at[3];
+
+        for (size_t c = 0; c < 3; ++c)
+            at[c] = fmax(
+                fmin((double)surface->points[3 * (size_t)v + c] / cell, FAR),
+                -FAR);
+        out[v] = nearest_value(at, slices);
+        if (v % 1024 == 0)
+            OTX_TRY(otx_pulse(run));
+    }
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_axis_values(
     otx_run *run, const otx_surface *surface, const otx_axis *a, double width,
@@ -223,6 +296,10 @@ otx_axis_values(
         OTX_TRY(bend(run, surface, a->kind, width, values));
     else if (a->kind == OTX_AXIS_OCCLUSION)
         OTX_TRY(hide(run, surface, values));
+    else if (a->kind == OTX_AXIS_MAP)
+        OTX_TRY(otx_mask_pictures_values(run, surface, a->path, values));
+    else if (a->kind == OTX_AXIS_SCATTER)
+        OTX_TRY(scatter(run, surface, a, width, values));
     else if (a->kind >= OTX_AXIS_RED)
         OTX_TRY(take_colour(run, surface, a->kind, values));
     else

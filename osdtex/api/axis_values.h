@@ -22,14 +22,19 @@ typedef enum otx_axis_kind
     OTX_AXIS_RED,
     OTX_AXIS_GREEN,
     OTX_AXIS_BLUE,
-    OTX_AXIS_COUNT
+    OTX_AXIS_SCATTER,
+    OTX_AXIS_COUNT,
+    OTX_AXIS_MAP = OTX_AXIS_COUNT /* a picture, which has a name of its own */
 } otx_axis_kind;
 
 typedef struct otx_axis
 {
     otx_axis_kind kind;
     bool is_reversed;
-    double reach; /* scene units at which it is 1; 0: where it is largest */
+    double reach; /* scene units at which it is 1; 0: where it is largest; of
+                   * SCATTER the way to another value, 0: half the width */
+    const char *path; /* of MAP, in the text that was read */
+    int32_t slices;   /* of SCATTER: how many values there are; 0: 2 */
 } otx_axis;
 
 /* Reads the text of osdtex_map_options.along, NULL being "y". ARGUMENT. */

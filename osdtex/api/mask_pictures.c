@@ -10,12 +10,21 @@
 
 static const char STAGE[] = "mask";
 
+/* What is to become of a picture when it is read. */
+typedef struct purpose
+{
+    int32_t count;   /* of exemplars */
+    uint8_t *demand; /* which are asked for; NULL: it is numbers */
+    double *sums;    /* at vertices */
+    int32_t *counts;
+} purpose;
+
 /* The picture lives in an arena of its own: it is large, and what readers
  * make must not lie over what the scratch arena holds. */
 static otx_status
 take_picture(
     otx_run *run, const otx_surface *surface, otx_demand_mask mask,
-    int32_t count, uint8_t *demand)
+    const purpose *p)
 {
     otx_run aside = *run;
     otx_picture picture;
@@ -27,7 +36,10 @@ take_picture(
     status = otx_picture_read(&aside, mask.path, &picture);
     mask.image = &picture.image;
     if (status == OSDTEX_OK)
-        status = otx_demand_picture(run, surface, &mask, count, demand);
+        status =
+            p->demand
+                ? otx_demand_picture(run, surface, &mask, p->count, p->demand)
+                : otx_demand_values(run, surface, &mask, p->sums, p->counts);
     otx_arena_destroy(aside.arena);
     return status;
 }
@@ -45,7 +57,7 @@ find_face(const uint16_t *tiles, int32_t face_count, int32_t tile)
 static otx_status
 take_tile(
     otx_run *run, const otx_surface *surface, otx_demand_mask mask,
-    int32_t face, int32_t count, uint8_t *demand)
+    int32_t face, const purpose *p)
 {
     const int32_t parent = otx_surface_leaf(surface)->face_cage[face];
 
@@ -57,13 +69,13 @@ take_tile(
             "the mask has no picture of UDIM tile %d, where face %d lies; "
             "write one, black where the first exemplar is to be",
             (int)mask.tile, (int)parent);
-    return take_picture(run, surface, mask, count, demand);
+    return take_picture(run, surface, mask, p);
 }
 
 static otx_status
 take_tiles(
     otx_run *run, const otx_surface *surface, const char *pattern,
-    int32_t count, uint8_t *demand)
+    const purpose *p)
 {
     const int32_t face_count = otx_surface_leaf(surface)->face_count;
     uint16_t *tiles = OTX_NEW(run->scratch, uint16_t, face_count);
@@ -83,7 +95,21 @@ take_tiles(
                     .path = otx_udim_name_of(run->scratch, pattern, t),
                     .tiles = tiles,
                     .tile = t},
-                find_face(tiles, face_count, t), count, demand));
+                find_face(tiles, face_count, t), p));
+    return OSDTEX_OK;
+}
+
+static otx_status
+take(
+    otx_run *run, const otx_surface *surface, const char *path,
+    const purpose *p)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+
+    if (!otx_udim_name_is_pattern(path))
+        return take_picture(run, surface, (otx_demand_mask){.path = path}, p);
+    OTX_TRY(take_tiles(run, surface, path, p));
+    otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }
 
@@ -92,12 +118,26 @@ otx_mask_pictures_take(
     otx_run *run, const otx_surface *surface, const char *path, int32_t count,
     uint8_t *demand)
 {
-    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const purpose p = {.count = count, .demand = demand};
 
-    if (!otx_udim_name_is_pattern(path))
-        return take_picture(
-            run, surface, (otx_demand_mask){.path = path}, count, demand);
-    OTX_TRY(take_tiles(run, surface, path, count, demand));
+    return take(run, surface, path, &p);
+}
+
+otx_status
+otx_mask_pictures_values(
+    otx_run *run, const otx_surface *surface, const char *path, double *values)
+{
+    const int32_t verts = otx_surface_leaf(surface)->vert_count;
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    const purpose p = {
+        .sums = values, .counts = OTX_ZNEW(run->scratch, int32_t, verts)};
+
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t v = 0; v < verts; ++v)
+        values[v] = 0.0;
+    OTX_TRY(take(run, surface, path, &p));
+    for (int32_t v = 0; v < verts; ++v)
+        values[v] /= p.counts[v] > 0 ? p.counts[v] : 1;
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }

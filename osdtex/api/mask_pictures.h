@@ -18,7 +18,14 @@ otx_status otx_mask_pictures_take(
     otx_run *run, const otx_surface *surface, const char *path, int32_t count,
     uint8_t *demand);
 
-/* The same by a picture in memory, of 3 or 4 channels. ARGUMENT, MEMORY. */
+/* What a picture of numbers, or of those of the tiles, says at the vertices:
+ * the mean of otx_demand_values, 0 where it says nothing. [leaf vert_count]. As
+ * otx_mask_pictures_take. */
+otx_status otx_mask_pictures_values(
+    otx_run *run, const otx_surface *surface, const char *path, double *values);
+
+/* otx_mask_pictures_take by a picture in memory, of 3 or 4 channels. ARGUMENT,
+ * MEMORY. */
 otx_status otx_mask_pictures_take_image(
     otx_run *run, const otx_surface *surface, const otx_image *image,
     int32_t count, uint8_t *demand);

@@ -17,13 +17,14 @@ asks_for_material(const otx_constraint_set *constraints)
     return false;
 }
 
-static bool
-has_stack(const osdtex_mapping *handle)
+/* Of the first stack; 0: there is none. */
+static int32_t
+slices_of(const osdtex_mapping *handle)
 {
     for (int32_t k = 0; k < handle->source_count; ++k)
         if (handle->exemplars[k].slices)
-            return true;
-    return false;
+            return handle->exemplars[k].slices->count;
+    return 0;
 }
 
 static otx_status
@@ -53,7 +54,7 @@ otx_material_axis_take(otx_run *run, const char *text, osdtex_mapping *handle)
     float *along;
 
     OTX_TRY(otx_axis_parse(run, text, &how));
-    if (!has_stack(handle))
+    if (slices_of(handle) == 0)
     {
         if (asked && handle->source_count == 1)
             otx_note(
@@ -62,6 +63,7 @@ otx_material_axis_take(otx_run *run, const char *text, osdtex_mapping *handle)
                 "give {also} exemplars, or a stack made by `osdtex stack`");
         return OSDTEX_OK;
     }
+    how.slices = slices_of(handle);
     along = OTX_NEW(run->arena, float, otx_surface_leaf(surface)->vert_count);
     OTX_TRY(otx_run_ok(run));
     OTX_TRY(

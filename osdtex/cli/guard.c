@@ -5,6 +5,7 @@
 #include "cli/also_flags.h"
 #include "cli/saved_files.h"
 #include "cli/stop.h"
+#include "cli/value.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -83,6 +84,9 @@ otx_guard_named(
         status = add_file(context, deep, out, values->inputs.maps[i]);
     if (status == OSDTEX_OK)
         status = add_listed(context, deep, out, values->text[OTX_FLAG_MASKS]);
+    if (status == OSDTEX_OK)
+        status = add_file(
+            context, deep, out, otx_value_map_of(values->text[OTX_FLAG_ALONG]));
     if (status == OSDTEX_OK)
         status = add_file(context, deep, out, values->inputs.saved.path);
     /* Operands stand in the place of the first ones. */

@@ -109,3 +109,13 @@ otx_value_has_extension(const char *path, const char *extension)
 
     return length > tail && strcasecmp(path + length - tail, extension) == 0;
 }
+
+const char *
+otx_value_map_of(const char *text)
+{
+    static const char lead[] = "map:";
+    const char *name = text && *text == '-' ? text + 1 : text;
+
+    return name && strncmp(name, lead, strlen(lead)) == 0 ? name + strlen(lead)
+                                                          : NULL;
+}

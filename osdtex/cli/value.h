@@ -21,4 +21,7 @@ otx_value_word(const char *text, const char *const *words, int count, int *out);
 /* Whether `path` ends in `extension`, in upper or lower case. */
 bool otx_value_has_extension(const char *path, const char *extension);
 
+/* FILE of the text "map:FILE" or "-map:FILE"; NULL where it is none. */
+const char *otx_value_map_of(const char *text);
+
 #endif

@@ -12,6 +12,8 @@ static const char STAGE[] = "mask";
 
 /* How far beyond the picture UVs may lie: rounding. */
 static const double UV_SLACK = 1e-4;
+/* How far a number may be off for being rounded. */
+static const double NUMBER_SLACK = 1e-3;
 
 /* A face without area at the border of a tile is in that before; less than half
  * a leaf face of any use. */
@@ -325,6 +327,73 @@ otx_demand_picture(
         if (asked >= count)
             return refuse_color(run, surface, f, asked, mask, count);
         demand[f] = (uint8_t)asked;
+    }
+    return OSDTEX_OK;
+}
+
+/* What a picture of numbers says at a place of it. */
+static double
+number_at(const otx_image *image, otx_vec2 uv)
+{
+    float v[OTX_IMAGE_MAX_CHANNELS];
+
+    otx_view_value(
+        otx_view_of(image, false, false),
+        (otx_vec2){uv.x * image->width, uv.y * image->height}, v);
+    return image->channels < 3 ? (double)v[0]
+                               : ((double)v[0] + v[1] + v[2]) / 3.0;
+}
+
+static otx_status
+add_numbers(
+    otx_run *run, const otx_surface *surface, const otx_demand_mask *mask,
+    int32_t face, otx_vec2 origin, double *sums, int32_t *counts)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+
+    for (int32_t c = leaf->face_first[face]; c < leaf->face_first[face + 1];
+         ++c)
+    {
+        const double value =
+            number_at(mask->image, otx_vec2_sub(corner_uv(surface, c), origin));
+
+        /* Written so that NaN is refused. */
+        if (!(value >= -NUMBER_SLACK && value <= 1.0 + NUMBER_SLACK))
+            return otx_fail(
+                run, OSDTEX_ERROR_FORMAT, STAGE,
+                (otx_where){mask->path, 0, leaf->face_cage[face], -1},
+                "the picture says %g on face %d, and places along a stack go "
+                "from 0 to 1; scale it to that",
+                value, (int)leaf->face_cage[face]);
+        sums[leaf->face_verts[c]] += fmin(fmax(value, 0.0), 1.0);
+        ++counts[leaf->face_verts[c]];
+    }
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_demand_values(
+    otx_run *run, const otx_surface *surface, const otx_demand_mask *mask,
+    double *sums, int32_t *counts)
+{
+    const otx_level *leaf = otx_surface_leaf(surface);
+    otx_vec2 origin = {0.0, 0.0};
+
+    OTX_TRY(need_uvs(run, surface, mask->path));
+    if (mask->tiles)
+        origin =
+            (otx_vec2){otx_udim_column(mask->tile), otx_udim_row(mask->tile)};
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        int32_t outside = -1;
+
+        if (!is_about(mask, leaf, f))
+            continue;
+        if (!mask->tiles)
+            outside = find_outside(surface, f, 1.0, 1.0);
+        if (outside >= 0)
+            return refuse_uv(run, surface, f, outside, false);
+        OTX_TRY(add_numbers(run, surface, mask, f, origin, sums, counts));
     }
     return OSDTEX_OK;
 }

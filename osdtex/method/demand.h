@@ -57,6 +57,17 @@ otx_status otx_demand_picture(
     otx_run *run, const otx_surface *surface, const otx_demand_mask *mask,
     int32_t count, uint8_t *demand);
 
+/* By a picture of numbers from 0 to 1, the mean of its colours: adds what it
+ * says at the corners of faces to their vertices, so that what lies on two
+ * sides of a cut in the UVs is one.
+ *
+ *   sums, counts  [leaf vert_count]
+ *
+ * ARGUMENT as otx_demand_picture, FORMAT for other numbers. */
+otx_status otx_demand_values(
+    otx_run *run, const otx_surface *surface, const otx_demand_mask *mask,
+    double *sums, int32_t *counts);
+
 /* Whether a set asks for materials or exemplars. */
 bool otx_demand_in(const otx_constraint_set *constraints);
 
