@@ -345,6 +345,7 @@ read_exemplar(
     otx_exemplar_input input = {.linear_only = linear_only};
     char middle[OTX_EXR_SLICE_NAME_BYTES];
     osdtex_exemplar_options ours;
+    otx_slice_maps maps;
     otx_picture picture;
     int32_t slices;
     otx_run aside;
@@ -375,6 +376,12 @@ read_exemplar(
     {
         ours.wrap = OSDTEX_WRAP_YES;
         ours.tileable = OSDTEX_TILEABLE_KEEP;
+        otx_exemplar_slices_maps(path, slices / 2, &maps);
+        if (ours.map_count == 0)
+        {
+            ours.maps = maps.list;
+            ours.map_count = maps.count;
+        }
     }
     OTX_TRY(build(
         call, &input, &ours, cuts, otx_picture_source_type(&picture),
@@ -382,7 +389,7 @@ read_exemplar(
     if (slices)
     {
         OTX_TRY(otx_exemplar_slices_read(
-            call, path, slices, &input, &(*out)->exemplar,
+            call, path, slices, &input, &ours, &(*out)->exemplar,
             &(*out)->exemplar.slices));
         (*out)->info.slices = slices;
         otx_note(

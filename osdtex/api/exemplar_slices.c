@@ -1,8 +1,11 @@
 /* exemplar_slices.c -- one slice after the other. */
 #include "api/exemplar_slices.h"
 
+#include "api/companion_pictures.h"
 #include "file/exr_slices.h"
 #include "file/picture_read.h"
+
+#include <string.h>
 
 /* One at a time is in memory as its file has it. */
 static otx_status
@@ -44,11 +47,65 @@ take_slice(
     return OSDTEX_OK;
 }
 
+void
+otx_exemplar_slices_maps(const char *path, int32_t index, otx_slice_maps *out)
+{
+    out->count = 0;
+    for (int kind = 0; kind < OTX_COMPANION_COUNT; ++kind)
+    {
+        char *name = out->names[out->count];
+
+        otx_exr_slice_map_name(
+            otx_companion_name((otx_companion_kind)kind), index, name);
+        if (otx_exr_part_is_there(path, name))
+            out->list[out->count++] =
+                (osdtex_companion){.path = path, .kind = kind, .layer = name};
+    }
+}
+
+/* The maps of every slice, where those that are asked for are the file's. */
+static otx_status
+take_maps(
+    otx_call *call, const char *path, int32_t count,
+    const osdtex_exemplar_options *options, const otx_exemplar *like,
+    const otx_image **out)
+{
+    otx_image *images = OTX_ZNEW(call->run.arena, otx_image, count);
+
+    *out = NULL;
+    OTX_TRY(otx_run_ok(&call->run));
+    for (int32_t i = 0; i < options->map_count; ++i)
+        if (!options->maps[i].path || strcmp(options->maps[i].path, path) != 0)
+            return OSDTEX_OK;
+    for (int32_t k = 0; k < count; ++k)
+    {
+        osdtex_exemplar_options own = *options;
+        otx_companions companions = {0};
+        otx_slice_maps maps;
+
+        otx_exemplar_slices_maps(path, k, &maps);
+        own.maps = maps.list;
+        own.map_count = maps.count;
+        OTX_TRY(otx_companion_pictures_take(call, &own, like, &companions));
+        if (companions.image.width != like->companions.image.width ||
+            companions.image.channels != like->companions.image.channels)
+            return otx_fail(
+                &call->run, OSDTEX_ERROR_FORMAT, "exemplar",
+                otx_where_file(path),
+                "slice %d has other maps than the one in the middle; write the "
+                "stack again",
+                k);
+        images[k] = companions.image;
+    }
+    *out = images;
+    return OSDTEX_OK;
+}
+
 otx_status
 otx_exemplar_slices_read(
     otx_call *call, const char *path, int32_t count,
-    const otx_exemplar_input *how, const otx_exemplar *like,
-    const otx_exemplar_slices **out)
+    const otx_exemplar_input *how, const osdtex_exemplar_options *options,
+    const otx_exemplar *like, const otx_exemplar_slices **out)
 {
     otx_run *run = &call->run;
     otx_exemplar_slices *slices = OTX_ZNEW(run->arena, otx_exemplar_slices, 1);
@@ -58,7 +115,10 @@ otx_exemplar_slices_read(
     OTX_TRY(otx_run_ok(run));
     for (int32_t k = 0; k < count; ++k)
         OTX_TRY(take_slice(call, path, k, how, like, &linear[k], &lab[k]));
-    *slices = (otx_exemplar_slices){count, linear, lab};
+    *slices =
+        (otx_exemplar_slices){.count = count, .linear = linear, .lab = lab};
+    if (options->map_count > 0)
+        OTX_TRY(take_maps(call, path, count, options, like, &slices->maps));
     *out = slices;
     return OSDTEX_OK;
 }

@@ -108,7 +108,10 @@ otx_model_maps_read(
         const otx_scene_texture *texture = &scene->textures[t];
 
         OTX_TRY(read_set(call, &paths[t], texture, &read[t]));
-        sets[t] = (otx_map_set){&read[t], texture->wrap_x, texture->wrap_y};
+        sets[t] = (otx_map_set){
+            .companions = &read[t],
+            .wrap_x = texture->wrap_x,
+            .wrap_y = texture->wrap_y};
     }
     OTX_TRY(
         otx_map_textures_gather(run, sets, count, OTX_MAP_TEXTURES_ALL, maps));

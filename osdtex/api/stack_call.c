@@ -1,6 +1,9 @@
 /* stack_call.c -- making stacks. */
 #include "api/call.h"
+#include "api/exemplar_slices.h"
 #include "api/handle.h"
+#include "api/stack_maps.h"
+#include "api/stack_measure.h"
 #include "export/stack_file.h"
 #include "stack/feature_mask.h"
 #include "stack/stack.h"
@@ -29,10 +32,12 @@ check(
     otx_run *run, const osdtex_exemplar *const *keys, int32_t key_count,
     const char *path, const osdtex_stack_options *o)
 {
-    if (!keys || !path || key_count < 2 || key_count > OSDTEX_STACK_KEYS_MAX)
+    if (!keys || !path || key_count < (o->vary ? 1 : 2) ||
+        key_count > (o->vary ? 1 : OSDTEX_STACK_KEYS_MAX))
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
-            "a stack is made of 2 to %d pictures and has a path",
+            "a stack is made of 2 to %d pictures, or of 1 to {vary}, and has a "
+            "path",
             OSDTEX_STACK_KEYS_MAX);
     if (o->slices < 2 || o->slices > OSDTEX_STACK_SLICES_MAX || o->width < 0 ||
         o->morph < OSDTEX_MORPH_AUTO || o->morph > OSDTEX_MORPH_LINEAR ||
@@ -75,12 +80,14 @@ fit(work *w, int32_t k, const otx_exemplar *from)
             (int32_t)((double)from->linear.height * width / from->linear.width + 0.5);
     }
     if (width == from->linear.width && height == from->linear.height &&
-        from->lab.width == width && from->lab.height == height)
+        from->lab.width == width && from->lab.height == height &&
+        (!otx_companions_are_there(&from->companions) ||
+         from->companions.image.width == width))
     {
         w->exemplars[k] = *from;
         return OSDTEX_OK;
     }
-    if (k > 0)
+    if (k > 0 && from->linear.width != width)
         otx_note(
             w->run, OSDTEX_SEVERITY_INFO, STAGE,
             otx_where_file(from->source_path),
@@ -208,8 +215,8 @@ write_files(work *w, const char *path)
     {
         const otx_stack_slice *slice = &w->stack.slices[i];
 
-        pages[i] =
-            (otx_stack_page){&slice->linear, slice->mask, slice->position};
+        pages[i] = (otx_stack_page){
+            &slice->linear, &slice->maps, slice->mask, slice->position};
     }
     OTX_TRY(otx_atomic_file_begin(run, run->scratch, &set));
     OTX_TRY(otx_stack_file_write(
@@ -235,7 +242,9 @@ tell(const work *w, osdtex_stack_info *out)
         .slice_count = w->stack.count,
         .width = w->stack.width,
         .height = w->stack.height,
-        .morph = (osdtex_morph)w->stack.morphs[0].kind,
+        .morph = w->stack.morphs ? (osdtex_morph)w->stack.morphs[0].kind
+                                 : OSDTEX_MORPH_AUTO,
+        .flips = 1.0,
         .feature = w->feature == OTX_FEATURE_JOINTS ? OSDTEX_FEATURE_JOINTS
                                                     : OSDTEX_FEATURE_SPOTS};
     for (int32_t k = 0; k + 1 < w->count; ++k)
@@ -252,10 +261,11 @@ tell(const work *w, osdtex_stack_info *out)
 
 static otx_status
 write_stack(
-    otx_run *run, const osdtex_exemplar *const *keys, int32_t key_count,
+    otx_call *call, const osdtex_exemplar *const *keys, int32_t key_count,
     const osdtex_stack_options *options, const char *path,
     osdtex_stack_info *out)
 {
+    otx_run *run = &call->run;
     work *w = OTX_ZNEW(run->arena, work, 1);
     otx_stack_options how;
     size_t length;
@@ -274,16 +284,35 @@ write_stack(
     run->seed = w->options.seed;
     for (int32_t k = 0; k < key_count; ++k)
         OTX_TRY(fit(w, k, &keys[k]->exemplar));
+    OTX_TRY(otx_stack_maps_align(run, w->exemplars, key_count));
     OTX_TRY(choose_masks(w));
     how = (otx_stack_options){
         .slices = w->options.slices,
         .morph = (otx_morph_kind)w->options.morph,
         .seed = w->options.seed};
-    OTX_TRY(otx_stack_make(run, w->keys, key_count, &how, &w->stack));
+    OTX_TRY(
+        w->options.vary
+            ? otx_stack_vary(run, w->keys, &how, &w->stack)
+            : otx_stack_make(run, w->keys, key_count, &how, &w->stack));
+    OTX_TRY(otx_stack_measure(call, &w->stack, w->keys, w->options.figures));
     OTX_TRY(write_files(w, path));
     if (out)
         tell(w, out);
     return OSDTEX_OK;
+}
+
+uint32_t
+osdtex_stack_maps(const char *path)
+{
+    uint32_t kinds = 0;
+    otx_slice_maps maps;
+
+    if (!path || otx_exr_slice_count(path) == 0)
+        return 0;
+    otx_exemplar_slices_maps(path, 0, &maps);
+    for (int32_t i = 0; i < maps.count; ++i)
+        kinds |= 1u << maps.list[i].kind;
+    return kinds;
 }
 
 osdtex_status
@@ -298,5 +327,5 @@ osdtex_stack_write(
         *out = (osdtex_stack_info){0};
     OTX_TRY(otx_call_begin(context, STAGE, &call));
     return otx_call_drop(
-        &call, write_stack(&call.run, keys, key_count, options, path, out));
+        &call, write_stack(&call, keys, key_count, options, path, out));
 }

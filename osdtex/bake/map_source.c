@@ -5,6 +5,33 @@
 
 #include <string.h>
 
+/* One channel of a picture. */
+static otx_status
+part(otx_run *run, const otx_image *all, int32_t channel, otx_image *out)
+{
+    const size_t texels = (size_t)all->width * (size_t)all->height;
+
+    OTX_TRY(otx_image_create(run, run->arena, all->width, all->height, 1, out));
+    for (size_t i = 0; i < texels; ++i)
+        out->pixels[i] =
+            all->pixels[i * (size_t)all->channels + (size_t)channel];
+    return OSDTEX_OK;
+}
+
+static otx_status
+part_slices(
+    otx_run *run, const otx_texture *from, int32_t channel, otx_texture *out)
+{
+    otx_image *images = OTX_NEW(run->arena, otx_image, from->slice_count);
+
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t i = 0; i < from->slice_count; ++i)
+        OTX_TRY(
+            part(run, &from->slices[i].pyramid.levels[0], channel, &images[i]));
+    return otx_texture_add_slices(
+        run, run->arena, images, from->slice_count, out);
+}
+
 /* One channel of the maps of each exemplar. */
 static otx_status
 part_heights(
@@ -19,18 +46,14 @@ part_heights(
     for (int32_t k = 0; channel >= 0 && k < count; ++k)
     {
         const otx_texture *from = &maps->textures[k];
-        const otx_image *all = &from->pyramid.levels[0];
-        const size_t texels = (size_t)all->width * (size_t)all->height;
         otx_image image;
 
-        OTX_TRY(otx_image_create(
-            run, run->arena, all->width, all->height, 1, &image));
-        for (size_t i = 0; i < texels; ++i)
-            image.pixels[i] =
-                all->pixels[i * (size_t)all->channels + (size_t)channel];
+        OTX_TRY(part(run, &from->pyramid.levels[0], channel, &image));
         OTX_TRY(otx_texture_create(
             run, run->arena, &image, from->wrap_x, from->wrap_y,
             &out->heights[k]));
+        if (from->slice_count > 0)
+            OTX_TRY(part_slices(run, from, channel, &out->heights[k]));
     }
     return OSDTEX_OK;
 }

@@ -75,16 +75,6 @@ otx_also_flags_parse(const otx_flag_values *values, otx_also_flags *out)
     return parse_scales(values->text[OTX_FLAG_SCALE], out);
 }
 
-/* As an input, once. */
-static void
-add_input(otx_flag_inputs *inputs, const char *path)
-{
-    for (int i = 0; i < inputs->map_count; ++i)
-        if (strcmp(inputs->maps[i], path) == 0)
-            return;
-    inputs->maps[inputs->map_count++] = path;
-}
-
 osdtex_status
 otx_also_flags_find(
     osdtex_context *context, otx_flag_inputs *inputs, otx_also_flags *also)
@@ -101,9 +91,9 @@ otx_also_flags_find(
             return status;
         info = otx_also_flags_set(also, k);
         also->files[k] = info->color;
-        add_input(inputs, info->color);
+        otx_flag_inputs_add(inputs, info->color);
         for (int i = 0; i < info->map_count; ++i)
-            add_input(inputs, info->maps[i].path);
+            otx_flag_inputs_add(inputs, info->maps[i].path);
     }
     return OSDTEX_OK;
 }

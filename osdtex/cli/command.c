@@ -118,13 +118,14 @@ static const otx_flag_id bake_flags[] = {
     OTX_FLAG_COUNT};
 
 static const otx_flag_id stack_flags[] = {
-    OTX_FLAG_OUTPUT,  OTX_FLAG_SLICES,       OTX_FLAG_STACK_SIZE,
-    OTX_FLAG_MASKS,   OTX_FLAG_FEATURES,     OTX_FLAG_MORPH,
-    OTX_FLAG_SEED,    OTX_FLAG_FROM,         OTX_FLAG_TO,
-    OTX_FLAG_WRAP,    OTX_FLAG_TILEABLE,     OTX_FLAG_COLORCONFIG,
-    OTX_FLAG_THREADS, OTX_FLAG_MEMORY_LIMIT, OTX_FLAG_REPLACE,
-    OTX_FLAG_DRY_RUN, OTX_FLAG_VERBOSE,      OTX_FLAG_QUIET,
-    OTX_FLAG_HELP,    OTX_FLAG_VERSION,      OTX_FLAG_COUNT};
+    OTX_FLAG_OUTPUT,      OTX_FLAG_SLICES,   OTX_FLAG_STACK_SIZE,
+    OTX_FLAG_MASKS,       OTX_FLAG_FEATURES, OTX_FLAG_MORPH,
+    OTX_FLAG_VARY,        OTX_FLAG_SEED,     OTX_FLAG_FROM,
+    OTX_FLAG_TO,          OTX_FLAG_WRAP,     OTX_FLAG_TILEABLE,
+    OTX_FLAG_COLORCONFIG, OTX_FLAG_THREADS,  OTX_FLAG_MEMORY_LIMIT,
+    OTX_FLAG_REPLACE,     OTX_FLAG_DRY_RUN,  OTX_FLAG_VERBOSE,
+    OTX_FLAG_QUIET,       OTX_FLAG_HELP,     OTX_FLAG_VERSION,
+    OTX_FLAG_COUNT};
 
 static const otx_flag_id edit_flags[] = {
     OTX_FLAG_OUTPUT,       OTX_FLAG_CONSTRAINTS, OTX_FLAG_REDO,
@@ -265,15 +266,16 @@ static const otx_command commands[] = {
      "osdtex tiles wood.exr -o wood_tiles.exr --oriented --for shirt.obj \\\n"
      "    --tile-level 2\n",
      "an .exr", tiles_flags, true},
-    {"stack", "EXEMPLAR EXEMPLAR...", 2, 8,
-     "make the pictures between two that tile",
+    {"stack", "EXEMPLAR...", 1, 8, "make the pictures between two that tile",
      "Makes slices in which the spots or joints of one picture become "
      "those of the\nnext: a texture with a third axis. Masks of them are found "
      "and written beside\nthe stack, so that they can be changed and given "
-     "instead.",
+     "instead. An EXEMPLAR may be\nthe folder of a material: its maps go "
+     "through, too.",
      "osdtex stack spots.png stripes.png -o fur.exr\n"
      "osdtex stack cobbles.png bricks.png -o wall.exr --features joints \\\n"
-     "    --slices 12 --size 512\n",
+     "    --slices 12 --size 512\n"
+     "osdtex stack pebbles.png --vary -o pebbles.exr\n",
      "an .exr; NAME_mask1.png, ... are written beside it", stack_flags, true},
     {"bake", "CAGE.obj EXEMPLAR", 2, 2,
      "texture a cage and bake the result onto its UVs",

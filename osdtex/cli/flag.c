@@ -111,7 +111,10 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "constraints name a material: x, y, z, from the lowest to the highest "
          "point (default y); curvature, ridges, hollows; occlusion; "
          "boundary[:LENGTH], creases[:LENGTH], the way from them; red, green, "
-         "blue of the vertices' colours; with a minus, as -y, the other way"},
+         "blue of the vertices' colours; scatter[:LENGTH], another slice by "
+         "chance every so far; map:FILE, a picture from black to white on the "
+         "cage's own UVs, <UDIM> in its name as of --mask; with a minus, as "
+         "-y, the other way"},
     [OTX_FLAG_PLACE] =
         {"place", 0, OTX_FLAG_GROUP_MAIN, "FILE",
          "pictures that lie over the texture where they are put, once or many "
@@ -177,7 +180,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "cut)"},
     [OTX_FLAG_SLICES] =
         {"slices", 0, OTX_FLAG_GROUP_MAIN, "N",
-         "pictures from one to the next, with both, 2 to 64 (default 8)"},
+         "pictures from one to the next, with both, or of --vary, 2 to 64 "
+         "(default 8, with --vary 4)"},
     [OTX_FLAG_STACK_SIZE] =
         {"size", 0, OTX_FLAG_GROUP_MAIN, "PX",
          "texels of the slices' width (default: as the first picture has)"},
@@ -196,6 +200,12 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "how features go over: advect moves them, for networks such as "
          "joints; linear blends their distances, for spots; relax does both "
          "(default auto: what leaves the fewest crumbs)"},
+    [OTX_FLAG_VARY] =
+        {"vary", 0, OTX_FLAG_GROUP_MAIN, NULL,
+         "of one EXEMPLAR: pictures that share its features and otherwise have "
+         "nothing in the same place, so that `osdtex map --along scatter` "
+         "hides "
+         "the period of a tile"},
     [OTX_FLAG_FOR] =
         {"for", 0, OTX_FLAG_GROUP_MAIN, "CAGE.obj",
          "make only the tiles that `osdtex map CAGE.obj` needs with the same "

@@ -8,6 +8,7 @@
 
 #include <osdtex/osdtex.h>
 #include <stdbool.h>
+#include <string.h>
 
 typedef enum otx_flag_id
 {
@@ -52,6 +53,7 @@ typedef enum otx_flag_id
     OTX_FLAG_MASKS,
     OTX_FLAG_FEATURES,
     OTX_FLAG_MORPH,
+    OTX_FLAG_VARY,
     OTX_FLAG_FOR,
     OTX_FLAG_RECEIVER,
     OTX_FLAG_BAKE,
@@ -182,6 +184,16 @@ typedef struct otx_flag_inputs
     otx_flag_spool spools[OTX_FLAG_SPOOLS_MAX];
     int spool_count;
 } otx_flag_inputs;
+
+/* Adds a file, once. */
+static inline void
+otx_flag_inputs_add(otx_flag_inputs *inputs, const char *path)
+{
+    for (int i = 0; i < inputs->map_count; ++i)
+        if (strcmp(inputs->maps[i], path) == 0)
+            return;
+    inputs->maps[inputs->map_count++] = path;
+}
 
 /* A command line, taken apart. Strings point into argv. */
 typedef struct otx_flag_values

@@ -69,6 +69,18 @@ otx_map_flags_name(otx_map_flags *r)
     return true;
 }
 
+/* Those that exemplar k has in its own file, a stack. */
+static uint32_t
+kinds_inside(const otx_map_flags *r, int k)
+{
+    if (r->exemplar_options.layer)
+        return 0;
+    return osdtex_stack_maps(
+        k == 0               ? r->values->operands[1]
+        : k <= r->also.count ? r->also.files[k - 1]
+                             : NULL);
+}
+
 /* Bit i: exemplar k has a map of kind i: those that flags give, else, of the
  * same picture, those of the saved mapping. */
 static uint32_t
@@ -79,6 +91,8 @@ kinds_of(const otx_map_flags *r, int k)
 
     if (k == 0)
         kinds = otx_material_flags_kinds(&r->material);
+    if (kinds == 0)
+        kinds = kinds_inside(r, k);
     if (r->values->inputs.saved.path && kinds == 0 &&
         !(k == 0 && r->values->operands[1]))
         kinds = r->values->inputs.saved.maps[k];

@@ -20,6 +20,9 @@ typedef struct otx_exemplar_slices
     int32_t count;
     const otx_image *linear; /* [count] */
     const otx_image *lab;    /* [count] */
+    /* [count] images of companions; NULL: those of the exemplar are all there
+     * are. */
+    const otx_image *maps;
 } otx_exemplar_slices;
 
 typedef struct otx_exemplar

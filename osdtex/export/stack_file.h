@@ -8,14 +8,15 @@
 typedef struct otx_stack_page
 {
     const otx_image *linear;
-    const uint8_t *mask; /* [height * width] */
-    double position;     /* along the axis, 0 to 1 */
+    const otx_image *maps; /* as the companions of `like`, where it has any */
+    const uint8_t *mask;   /* [height * width] */
+    double position;       /* along the axis, 0 to 1 */
 } otx_stack_page;
 
 /* Writes `path` of `set`: tiled, mip-mapped parts m000, m001, ... with the
- * slices and mask000, ... with their masks, each with its place in the
- * attribute osdtex:position; colours are those of `like`. IO, NUMERIC, MEMORY.
- */
+ * slices, mask000, ... with their masks, and normal000, ... and so on with
+ * their maps, each with its place in the attribute osdtex:position; colours and
+ * kinds of maps are those of `like`. IO, NUMERIC, MEMORY. */
 otx_status otx_stack_file_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const otx_exemplar *like, const otx_stack_page *pages, int32_t count);

@@ -15,8 +15,15 @@ enum
  */
 int32_t otx_exr_slice_count(const char *path);
 
+/* Whether the file has a part of that name; false where it cannot be read. */
+bool otx_exr_part_is_there(const char *path, const char *name);
+
 /* The name of the part with slice `index`. */
 void
 otx_exr_slice_name(int32_t index, char name[static OTX_EXR_SLICE_NAME_BYTES]);
+
+/* The name of the part with its map of the kind that is called `map`. */
+void otx_exr_slice_map_name(
+    const char *map, int32_t index, char name[static OTX_EXR_SLICE_NAME_BYTES]);
 
 #endif

@@ -109,6 +109,26 @@ set_carry(
     return otx_carry_measure(run, mapping, exemplars, &carry->scale);
 }
 
+/* The slices of a stack in the same order. */
+static otx_status
+add_slices(
+    otx_run *run, const otx_map_set *set, int32_t channels,
+    const int32_t first[OTX_COMPANION_COUNT], otx_texture *texture)
+{
+    otx_image *images = OTX_NEW(run->arena, otx_image, set->slice_count);
+
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t i = 0; i < set->slice_count; ++i)
+    {
+        otx_companions slice = *set->companions;
+
+        slice.image = set->slices[i];
+        OTX_TRY(order(run, &slice, channels, first, &images[i]));
+    }
+    return otx_texture_add_slices(
+        run, run->arena, images, set->slice_count, texture);
+}
+
 otx_status
 otx_map_textures_gather(
     otx_run *run, const otx_map_set *sets, int32_t count, uint32_t kinds,
@@ -128,6 +148,9 @@ otx_map_textures_gather(
         OTX_TRY(otx_texture_create(
             run, run->arena, &image, sets[k].wrap_x, sets[k].wrap_y,
             &textures[k]));
+        if (sets[k].slices)
+            OTX_TRY(add_slices(
+                run, &sets[k], out->channels, out->first, &textures[k]));
     }
     return OSDTEX_OK;
 }
@@ -141,8 +164,16 @@ otx_map_textures_create(
     otx_map_set sets[OTX_EXEMPLARS_MAX];
 
     for (int32_t k = 0; k < count; ++k)
+    {
+        const otx_exemplar_slices *slices = exemplars[k].slices;
+
         sets[k] = (otx_map_set){
-            &exemplars[k].companions, exemplars[k].wrap_x, exemplars[k].wrap_y};
+            .companions = &exemplars[k].companions,
+            .wrap_x = exemplars[k].wrap_x,
+            .wrap_y = exemplars[k].wrap_y,
+            .slices = slices ? slices->maps : NULL,
+            .slice_count = slices ? slices->count : 0};
+    }
     OTX_TRY(otx_map_textures_gather(run, sets, count, kinds, out));
     return out->channels > 0 ? set_carry(run, mapping, exemplars, out)
                              : OSDTEX_OK;

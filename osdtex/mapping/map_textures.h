@@ -25,6 +25,9 @@ typedef struct otx_map_set
 {
     const otx_companions *companions;
     bool wrap_x, wrap_y;
+    const otx_image *slices; /* [slice_count] images as that of `companions`, of
+                              * a stack; NULL: it has none */
+    int32_t slice_count;
 } otx_map_set;
 
 /* Prepares the maps of `count` pictures as they are, in run->arena. Borrows

@@ -4,14 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-enum
-{
-    COLOURS = 3
-};
-
 typedef struct moments
 {
-    double mean, deviation, low;
+    double mean, deviation, low, high;
 } moments;
 
 /* Of a channel, as `texels` show it; NULL: as it is. */
@@ -19,7 +14,8 @@ static moments
 moments_of(const otx_image *image, const int32_t *texels, int32_t channel)
 {
     const int64_t count = (int64_t)image->width * image->height;
-    double sum = 0.0, squares = 0.0, low = (double)INFINITY;
+    double sum = 0.0, squares = 0.0, low = (double)INFINITY,
+           high = -(double)INFINITY;
 
     for (int64_t i = 0; i < count; ++i)
     {
@@ -29,10 +25,11 @@ moments_of(const otx_image *image, const int32_t *texels, int32_t channel)
         sum += v;
         squares += v * v;
         low = fmin(low, v);
+        high = fmax(high, v);
     }
     sum /= (double)count;
     return (moments){
-        sum, sqrt(fmax(squares / (double)count - sum * sum, 0.0)), low};
+        sum, sqrt(fmax(squares / (double)count - sum * sum, 0.0)), low, high};
 }
 
 static void
@@ -72,13 +69,17 @@ stretch(const otx_mixture *m, int32_t channel, otx_image *out)
     const double wanted =
         (1.0 - m->weight) * a.deviation + m->weight * b.deviation;
     const double gain = is.deviation > 0.0 ? wanted / is.deviation : 1.0;
-    const double floor = a.low >= 0.0 && b.low >= 0.0 ? 0.0 : -(double)INFINITY;
+    const double low = m->bounded                     ? fmin(a.low, b.low)
+                       : a.low >= 0.0 && b.low >= 0.0 ? 0.0
+                                                      : -(double)INFINITY;
+    const double high = m->bounded ? fmax(a.high, b.high) : (double)INFINITY;
 
     for (int64_t i = 0; i < count; ++i)
     {
         float *v = &out->pixels[i * out->channels + channel];
 
-        *v = (float)fmax(is.mean + gain * ((double)*v - is.mean), floor);
+        *v = (float)fmin(
+            fmax(is.mean + gain * ((double)*v - is.mean), low), high);
     }
 }
 
@@ -96,8 +97,9 @@ otx_mixture_make(otx_run *run, const otx_mixture *mixture, otx_image *out)
     else
     {
         mean(mixture, out);
-        for (int32_t c = 0; c < COLOURS && c < out->channels; ++c)
-            stretch(mixture, c, out);
+        for (int32_t c = 0; c < out->channels; ++c)
+            if (!(mixture->plain >> c & 1u))
+                stretch(mixture, c, out);
     }
     return OSDTEX_OK;
 }

@@ -10,13 +10,15 @@ typedef struct otx_mixture
     /* [height * width] the texels that are shown, NULL: the picture has no
      * weight. */
     const int32_t *from_texels, *to_texels;
-    double weight; /* of the second */
+    double weight;  /* of the second */
+    uint32_t plain; /* bit c: channel c is a mean as it comes out */
+    bool bounded;   /* no value lies beyond those that are mixed */
 } otx_mixture;
 
-/* A weighted mean of both, in run->arena, whose channels R, G, B are stretched
- * about their means to the standard deviation between those of the two: what
- * is mixed of things that differ is flat. Values that were not negative are
- * kept so. MEMORY. */
+/* A weighted mean of both, in run->arena, whose channels are stretched about
+ * their means to the standard deviation between those of the two: what is mixed
+ * of things that differ is flat. Values that were not negative are kept so.
+ * MEMORY. */
 otx_status
 otx_mixture_make(otx_run *run, const otx_mixture *mixture, otx_image *out);
 

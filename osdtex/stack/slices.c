@@ -12,6 +12,13 @@ enum
     FEATURES = 8   /* of a texel: Lab, edges, the mask */
 };
 
+/* How far from all others before it a slice that varies takes its texels, of
+ * the shorter side: 24 of 256. */
+#define APART 0.09375
+
+/* Which way is up is no matter of chance. */
+#define HELD 0.01
+
 /* What begins with a slice that is nearly right needs half the rounds. */
 #define EFFORT 0.5
 
@@ -151,6 +158,37 @@ make_slice(work *w, int32_t m, const int32_t *before, int32_t *out)
     return OSDTEX_OK;
 }
 
+/* From nothing, under the first mask, away from slices 0 .. m - 1. */
+static otx_status
+vary_slice(work *w, int32_t m, const float *field, int32_t *const *before)
+{
+    const int32_t side = w->width < w->height ? w->width : w->height;
+    const otx_synth_chart chart = {
+        .width = w->width,
+        .height = w->height,
+        .wrap_x = true,
+        .wrap_y = true,
+        .field = field,
+        .guide = w->guide,
+        .barred = (const int32_t *const *)before,
+        .barred_count = m,
+        .matches = w->matches};
+    otx_synth_options options = otx_synth_making();
+
+    options.levels = w->pattern.level_count;
+    options.usage = 0.0;
+    options.histogram = 0.0;
+    options.turn = 0.0;
+    options.tolerance = HELD;
+    options.apart = APART * side;
+    options.stage = "slice";
+    options.seed = w->input->seed + (uint64_t)m;
+    OTX_TRY(otx_synth_run(w->run, &w->pattern, &chart, 1, &options));
+    for (int64_t i = 0; i < w->texels; ++i)
+        before[m][i] = texel_at(w, w->matches[i]);
+    return OSDTEX_OK;
+}
+
 static otx_status
 set_up(otx_run *run, const otx_slices_input *input, work *w)
 {
@@ -187,6 +225,36 @@ otx_slices_make(otx_run *run, const otx_slices_input *input, int32_t **out)
             out[m][i] = (int32_t)i;
         if (m > 0)
             OTX_TRY(make_slice(&w, m, out[m - 1], out[m]));
+        otx_arena_release(run->scratch, slice);
+        OTX_TRY(otx_progress(run, STAGE, (double)m / input->count));
+    }
+    otx_arena_release(run->scratch, mark);
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_slices_vary(otx_run *run, const otx_slices_input *input, int32_t **out)
+{
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    float *field;
+    work w;
+
+    OTX_TRY(set_up(run, input, &w));
+    field = OTX_ZNEW(run->scratch, float, 2 * w.texels);
+    for (int32_t m = 0; m < input->count; ++m)
+        out[m] = OTX_NEW(run->arena, int32_t, w.texels);
+    OTX_TRY(otx_run_ok(run));
+    for (int64_t i = 0; i < w.texels; ++i)
+    {
+        out[0][i] = (int32_t)i;
+        field[2 * i] = 1.0f;
+        w.guide[4 * i] = input->masks[0][i] ? (float)w.unit : 0.0f;
+    }
+    for (int32_t m = 1; m < input->count; ++m)
+    {
+        const otx_arena_mark slice = otx_arena_here(run->scratch);
+
+        OTX_TRY(vary_slice(&w, m, field, out));
         otx_arena_release(run->scratch, slice);
         OTX_TRY(otx_progress(run, STAGE, (double)m / input->count));
     }

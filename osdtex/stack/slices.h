@@ -28,4 +28,10 @@ typedef struct otx_slices_input
 otx_status
 otx_slices_make(otx_run *run, const otx_slices_input *input, int32_t **out);
 
+/* The picture, and count - 1 others under its own mask, each made anew from
+ * nothing: where one has a texel of the picture, the next ones have none from
+ * nearby. Of the masks only the first is looked at. CANCELLED, MEMORY. */
+otx_status
+otx_slices_vary(otx_run *run, const otx_slices_input *input, int32_t **out);
+
 #endif

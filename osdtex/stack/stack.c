@@ -55,19 +55,37 @@ remake(
     return OSDTEX_OK;
 }
 
-static otx_status
-mix_slice(
-    otx_run *run, const otx_stack_key *keys, const otx_stack_slice *slice,
-    otx_image *out)
+/* Which channels of the maps are no matter of contrast: how far normals point
+ * up follows from the other two. */
+static uint32_t
+plain_maps(const otx_companions *maps)
 {
-    const otx_mixture mixture = {
-        .from = &keys[slice->keys[0]].exemplar->linear,
-        .to = &keys[slice->keys[1]].exemplar->linear,
+    const otx_companion *normal = &maps->maps[OTX_COMPANION_NORMAL];
+
+    return normal->is_there ? 4u << normal->first : 0u;
+}
+
+static otx_status
+mix_slice(otx_run *run, const otx_stack_key *keys, otx_stack_slice *slice)
+{
+    const otx_exemplar *from = keys[slice->keys[0]].exemplar;
+    const otx_exemplar *to = keys[slice->keys[1]].exemplar;
+    otx_mixture mixture = {
+        .from = &from->linear,
+        .to = &to->linear,
         .from_texels = slice->texels[0],
         .to_texels = slice->texels[1],
-        .weight = slice->weight};
+        .weight = slice->weight,
+        .plain = 8u};
 
-    return otx_mixture_make(run, &mixture, out);
+    OTX_TRY(otx_mixture_make(run, &mixture, &slice->linear));
+    if (!otx_companions_are_there(&from->companions))
+        return OSDTEX_OK;
+    mixture.from = &from->companions.image;
+    mixture.to = &to->companions.image;
+    mixture.plain = plain_maps(&from->companions);
+    mixture.bounded = true;
+    return otx_mixture_make(run, &mixture, &slice->maps);
 }
 
 /* Slices first to first + slices - 1 lie between keys k and k + 1. */
@@ -101,7 +119,7 @@ make_stretch(
             .weight = (double)m / last,
             .mask = morph->masks[m],
             .texels = {near[m], far[m]}};
-        OTX_TRY(mix_slice(run, keys, slice, &slice->linear));
+        OTX_TRY(mix_slice(run, keys, slice));
     }
     return OSDTEX_OK;
 }
@@ -156,5 +174,39 @@ otx_stack_make(
         OTX_TRY(make_stretch(run, keys, k, options, out));
         otx_arena_release(run->scratch, mark);
     }
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_stack_vary(
+    otx_run *run, const otx_stack_key *key, const otx_stack_options *options,
+    otx_stack *out)
+{
+    const int32_t count = options->slices;
+    const otx_arena_mark mark = otx_arena_here(run->scratch);
+    int32_t **made = OTX_NEW(run->scratch, int32_t *, count);
+    const otx_slices_input input = {
+        .lab = &key->exemplar->lab,
+        .masks = &key->mask,
+        .count = count,
+        .mask_weight = MASK_WEIGHT,
+        .seed = options->seed};
+
+    *out = (otx_stack){
+        .width = key->exemplar->linear.width,
+        .height = key->exemplar->linear.height,
+        .count = count,
+        .slices = OTX_ZNEW(run->arena, otx_stack_slice, count)};
+    OTX_TRY(otx_run_ok(run));
+    OTX_TRY(otx_slices_vary(run, &input, made));
+    for (int32_t m = 0; m < count; ++m)
+    {
+        out->slices[m] = (otx_stack_slice){
+            .position = (double)m / (count - 1),
+            .mask = key->mask,
+            .texels = {made[m], NULL}};
+        OTX_TRY(mix_slice(run, key, &out->slices[m]));
+    }
+    otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;
 }

@@ -13,8 +13,10 @@
 /* A picture along the row. */
 typedef struct otx_stack_key
 {
-    const otx_exemplar *exemplar; /* tiles in both axes */
-    const uint8_t *mask;          /* [height * width] of its feature */
+    /* Tiles in both axes. Its maps, of all keys the same, are of the picture's
+     * size. */
+    const otx_exemplar *exemplar;
+    const uint8_t *mask; /* [height * width] of its feature */
 } otx_stack_key;
 
 /* What a slice shows: a mixture of two keys, texel by texel. */
@@ -28,6 +30,7 @@ typedef struct otx_stack_slice
      * weight. */
     const int32_t *texels[2];
     otx_image linear; /* of the keys' channels */
+    otx_image maps;   /* as the keys' companions; no pixels: there are none */
 } otx_stack_slice;
 
 typedef struct otx_stack_options
@@ -42,7 +45,7 @@ typedef struct otx_stack
     int32_t width, height;
     int32_t count; /* (keys - 1) * (slices - 1) + 1 */
     otx_stack_slice *slices;
-    otx_morph *morphs; /* [keys - 1] */
+    otx_morph *morphs; /* [keys - 1]; NULL of one key */
 } otx_stack;
 
 /* In run->arena. Keys are of one size and have the same channels. ARGUMENT,
@@ -50,5 +53,12 @@ typedef struct otx_stack
 otx_status otx_stack_make(
     otx_run *run, const otx_stack_key *keys, int32_t key_count,
     const otx_stack_options *options, otx_stack *out);
+
+/* options->slices pictures of one key, which all have its mask and otherwise
+ * nothing in the same place: to hide the period of a tile. CANCELLED, MEMORY.
+ */
+otx_status otx_stack_vary(
+    otx_run *run, const otx_stack_key *key, const otx_stack_options *options,
+    otx_stack *out);
 
 #endif

@@ -65,6 +65,7 @@ otx_maker_search(otx_maker *m, int32_t level, int32_t round, int32_t passes)
         .turn = o->turn,
         .tolerance = o->tolerance,
         .symmetry = o->symmetry,
+        .barred_apart = (float)o->apart,
         .usage = usage > 0.0 ? m->usage : NULL};
 
     for (int32_t i = 0; i < passes; ++i)

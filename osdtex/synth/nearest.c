@@ -9,6 +9,7 @@
 #define NARROWER 0.4    /* a random step to the one before it */
 #define BY_CHANCE 0.97f /* of the best cost that a random place has to have */
 #define BY_NEIGHBOUR 1.01f /* and a neighbour's: ties make it coherent */
+#define NO_MATCH 1e30f     /* the cost of what is barred */
 #define SAME 0.02f /* texels of the level between two that are one place */
 
 /* The search at one texel. */
@@ -16,6 +17,7 @@ typedef struct seeker
 {
     const otx_nearest_pass *pass;
     otx_canvas *canvas;
+    const otx_synth_chart *given;
     otx_occurrence *usage; /* the chart's own; NULL */
     int32_t chart;
     float cos_tolerance;
@@ -51,15 +53,38 @@ is_held(const seeker *s, ptrdiff_t at, otx_synth_match m)
            (symmetry > 2 && fabsf(across) >= s->cos_tolerance);
 }
 
+/* The texel of the chart that a texel of the level lies on. */
+static int64_t
+texel_of(const seeker *s, int32_t x, int32_t y)
+{
+    const otx_canvas *c = s->canvas;
+    const int32_t i = (int32_t)(((float)x + 0.5f) * c->step_x);
+    const int32_t j = (int32_t)(((float)y + 0.5f) * c->step_y);
+
+    return (int64_t)j * s->given->width + i;
+}
+
 static bool
 is_barred(const seeker *s, ptrdiff_t at, otx_synth_match m)
 {
     const otx_canvas *c = s->canvas;
+    const int32_t x = (int32_t)(at % c->stride) - OTX_CANVAS_RIM;
+    const int32_t y = (int32_t)(at / c->stride) - OTX_CANVAS_RIM;
 
-    return s->pass->apart > 0.0f &&
-           otx_nearest_is_near(
-               c, (int32_t)(at % c->stride) - OTX_CANVAS_RIM,
-               (int32_t)(at / c->stride) - OTX_CANVAS_RIM, m, s->pass->apart);
+    if (s->pass->apart > 0.0f &&
+        otx_nearest_is_near(c, x, y, m, s->pass->apart))
+        return true;
+    for (int32_t k = 0; k < s->given->barred_count; ++k)
+    {
+        const int32_t from = s->given->barred[k][texel_of(s, x, y)];
+        const int32_t width = c->pattern->width;
+
+        if (otx_nearest_is_beside(
+                c->pattern, (float)(from % width) + 0.5f,
+                (float)(from / width) + 0.5f, m, s->pass->barred_apart))
+            return true;
+    }
+    return false;
 }
 
 static void
@@ -201,37 +226,33 @@ is_quiet(const seeker *s, int32_t y, ptrdiff_t at)
 }
 
 static void
-seek(
-    const seeker *s, const otx_synth_chart *chart, int32_t x, int32_t y,
-    int32_t back)
+seek(const seeker *s, int32_t x, int32_t y, int32_t back)
 {
+    const otx_synth_chart *chart = s->given;
     otx_canvas *c = s->canvas;
     const ptrdiff_t at = otx_canvas_index(c, x, y);
 
     if (c->uses[at] != OTX_CANVAS_SEEK || is_quiet(s, y, at))
         return;
-    if (s->pass->refresh)
+    /* What may not stay gives way to anything. */
+    if (s->given->barred_count > 0 && is_barred(s, at, c->matches[at]))
+        c->costs[at] = NO_MATCH;
+    else if (s->pass->refresh)
         c->costs[at] = otx_window_cost(
             c, at, otx_window_frame_of(c, at, c->matches[at]), INFINITY);
     try_neighbour(s, x, y, back, 0);
     try_neighbour(s, x, y, 0, back);
     try_neighbour(s, x, y, back, back);
     if (s->pass->hint && chart->hints)
-    {
-        const int32_t i = (int32_t)(((float)x + 0.5f) * c->step_x);
-        const int32_t j = (int32_t)(((float)y + 0.5f) * c->step_y);
-
         try_match(
-            s, at,
-            otx_canvas_fold(c, chart->hints[(int64_t)j * chart->width + i]),
+            s, at, otx_canvas_fold(c, chart->hints[texel_of(s, x, y)]),
             BY_NEIGHBOUR);
-    }
     try_around(s, at);
 }
 
 /* Every other pass goes the other way. */
 static void
-seek_rows(const seeker *s, const otx_synth_chart *chart)
+seek_rows(const seeker *s)
 {
     const int32_t width = s->canvas->width, rows = s->y_end - s->y_first;
     const bool down = s->pass->number % 2 != 0;
@@ -239,7 +260,7 @@ seek_rows(const seeker *s, const otx_synth_chart *chart)
     for (int32_t j = 0; j < rows; ++j)
         for (int32_t i = 0; i < width; ++i)
             seek(
-                s, chart, down ? width - 1 - i : i,
+                s, down ? width - 1 - i : i,
                 down ? s->y_end - 1 - j : s->y_first + j, down ? -1 : 1);
 }
 
@@ -262,13 +283,14 @@ search_strip(void *context, int64_t index, otx_worker *worker)
     const seeker s = {
         .pass = j->pass,
         .canvas = c,
+        .given = &j->charts[k],
         .chart = k,
         .cos_tolerance = (float)cos(j->pass->tolerance),
         .y_first = y,
         .y_end = end < c->height ? end : c->height};
 
     (void)worker;
-    seek_rows(&s, &j->charts[k]);
+    seek_rows(&s);
     return OSDTEX_OK;
 }
 
@@ -281,6 +303,7 @@ search_whole(void *context, int64_t index, otx_worker *worker)
     seeker s = {
         .pass = j->pass,
         .canvas = c,
+        .given = &j->charts[index],
         .usage = OTX_NEW(worker->scratch, otx_occurrence, 1),
         .chart = (int32_t)index,
         .cos_tolerance = (float)cos(j->pass->tolerance),
@@ -289,7 +312,7 @@ search_whole(void *context, int64_t index, otx_worker *worker)
     if (!s.usage)
         return OSDTEX_ERROR_MEMORY;
     *s.usage = *j->pass->usage;
-    seek_rows(&s, &j->charts[index]);
+    seek_rows(&s);
     return OSDTEX_OK;
 }
 

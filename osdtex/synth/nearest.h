@@ -24,6 +24,7 @@ typedef struct otx_nearest_pass
     const otx_occurrence *usage; /* NULL: it costs nothing */
     float apart; /* texels along both axes that a match has to be from where the
                   * chart itself has it; 0: it may be anywhere */
+    float barred_apart; /* likewise, from the places that a chart bars */
 } otx_nearest_pass;
 
 /* One pass over all canvases of a level.
@@ -36,22 +37,32 @@ otx_status otx_nearest_search(
     otx_run *run, otx_canvas *const *canvases, const otx_synth_chart *charts,
     int32_t count, const otx_nearest_pass *pass);
 
+/* Whether a match is less than `apart` texels along both axes from a place. */
+static inline bool
+otx_nearest_is_beside(
+    const otx_pattern *pattern, float x, float y, otx_synth_match m,
+    float apart)
+{
+    const float width = (float)pattern->width;
+    const float height = (float)pattern->height;
+    float dx = fabsf(m.x - x), dy = fabsf(m.y - y);
+
+    if (pattern->wrap_x && dx > 0.5f * width)
+        dx = width - dx;
+    if (pattern->wrap_y && dy > 0.5f * height)
+        dy = height - dy;
+    return dx < apart && dy < apart;
+}
+
 /* Whether a match is less than `apart` texels along both axes from where a
  * chart that is the pattern has texel (x, y) of the canvas. */
 static inline bool
 otx_nearest_is_near(
     const otx_canvas *c, int32_t x, int32_t y, otx_synth_match m, float apart)
 {
-    const float width = (float)c->pattern->width;
-    const float height = (float)c->pattern->height;
-    float dx = fabsf(m.x - ((float)x + 0.5f) * c->step_x);
-    float dy = fabsf(m.y - ((float)y + 0.5f) * c->step_y);
-
-    if (c->pattern->wrap_x && dx > 0.5f * width)
-        dx = width - dx;
-    if (c->pattern->wrap_y && dy > 0.5f * height)
-        dy = height - dy;
-    return dx < apart && dy < apart;
+    return otx_nearest_is_beside(
+        c->pattern, ((float)x + 0.5f) * c->step_x,
+        ((float)y + 0.5f) * c->step_y, m, apart);
 }
 
 /* A place and an angle by chance, within the tolerance of a field.

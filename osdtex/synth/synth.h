@@ -73,6 +73,11 @@ typedef struct otx_synth_chart
     const float *anchor;
     const float *anchor_share;
     const otx_synth_match *hints; /* [texels] tried once a level; NULL none */
+    /* [barred_count][texels] places in the exemplar, as y * its width + x, that
+     * a texel's match keeps options->apart texels from, along an axis at least.
+     */
+    const int32_t *const *barred;
+    int32_t barred_count;
     /* [texels] In: of FROZEN, and of FREE where options->given. Out: of FREE.
      */
     otx_synth_match *matches;
@@ -94,6 +99,7 @@ typedef struct otx_synth_options
     int32_t symmetry;      /* of a field: turns by 360 / symmetry degrees are
                             * equal in it; 1, 2 or 4 */
     uint64_t seed;
+    double apart;      /* see barred */
     double effort;     /* factor on the rounds of search and vote; 0 is 1 */
     const char *stage; /* of progress */
 } otx_synth_options;

@@ -9,6 +9,7 @@ from program import CAGES, EXEMPLARS, ProgramTest
 
 SPOTS = EXEMPLARS / "spots_tile.png"
 PEBBLES = EXEMPLARS / "pebbles_tile.png"
+WAVES = EXEMPLARS.parent / "materials/waves"
 SMALL = ("--size", 64, "--slices", 3)
 
 
@@ -53,6 +54,50 @@ class Stack(ProgramTest):
         result = self.stack(SPOTS, PEBBLES, SPOTS, *SMALL)
         self.assert_exit(result, 0)
         self.assertIn("5 slices", result.stderr)
+
+    def test_figures_are_told(self):
+        result = self.stack(SPOTS, PEBBLES, *SMALL)
+        self.assertRegex(
+            result.stderr, r"of the worst slice: features .* \d\.\d+; contrast")
+
+    def test_a_set_goes_through(self):
+        """What only one picture has is flat in the other."""
+        result = self.stack(WAVES, PEBBLES, *SMALL)
+        self.assert_exit(result, 0)
+        self.assertIn("has a normal map and this one has none", result.stderr)
+        for part in "normal000", "roughness001", "height002", "metalness001":
+            self.assert_exit(
+                self.run_program(
+                    "info", self.folder / "a.exr", "--layer", part), 0)
+        words = ("--scale", 1, "--level", 2, "--resolution", 64, "--along", "x")
+        kinds = "normal", "roughness", "height", "metalness", "occlusion"
+        saved = self.folder / "m.osdtex"
+        self.assert_exit(self.run_program(
+            "bake", CAGES / "plane.obj", self.folder / "a.exr", "-o",
+            self.folder / "b.obj", "--save", saved, *words), 0)
+        self.assert_exit(self.run_program(
+            "bake", "--from", saved, "-o", self.folder / "c.obj",
+            "--resolution", 64), 0)
+        for kind in kinds:
+            self.assertEqual(
+                self.picture(f"b_{kind}.1001.exr"),
+                self.picture(f"c_{kind}.1001.exr"), kind)
+        # They are known beforehand, and not written over.
+        for kind in kinds:
+            (self.folder / f"d_{kind}.1001.exr").write_text("mine")
+            self.assert_error(
+                self.run_program(
+                    "bake", CAGES / "plane.obj", self.folder / "a.exr", "-o",
+                    self.folder / "d.obj", *words), 1, "d_" + kind)
+            (self.folder / f"d_{kind}.1001.exr").unlink()
+        # Along the axis they change: from waves to what is flat.
+        self.assert_exit(self.run_program(
+            "bake", CAGES / "plane.obj", self.folder / "a.exr", "-o",
+            self.folder / "e.obj", *words[:-1], "-x"), 0)
+        for kind in kinds:
+            self.assertNotEqual(
+                self.picture(f"b_{kind}.1001.exr"),
+                self.picture(f"e_{kind}.1001.exr"), kind)
 
     def test_what_cannot_be_stacked(self):
         open_picture = EXEMPLARS / "stones_open.png"
@@ -151,6 +196,67 @@ class Stack(ProgramTest):
         values, _ = self.along("--along", "green", cage=cage)
         for value, green in zip(values, greens):
             self.assertAlmostEqual(value, green, delta=1e-6)
+
+    def test_a_picture_says_where_slices_go(self):
+        """What lies on the two sides of a cut in the UVs is one place."""
+        self.need(modules=("PIL",))
+        from PIL import Image
+        self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
+        ramp = self.folder / "ramp.png"
+        picture = Image.new("L", (256, 8))
+        picture.putdata([x for _ in range(8) for x in range(256)])
+        picture.save(ramp)
+        cage = CAGES / "uv_seams.obj"
+        values, faces = self.along("--along", f"map:{ramp}", cage=cage)
+        lines = cage.read_text().splitlines()
+        us = [float(l.split()[1]) for l in lines if l.startswith("vt ")]
+        corners = [
+            [int(c.split("/")[1]) - 1 for c in l.split()[1:]]
+            for l in lines if l.startswith("f ")]
+        sums = {}
+        for face, indices in zip(faces, corners):
+            for vertex, uv in zip(face, indices):
+                u = min(max(us[uv] * 256 - 0.5, 0), 255) / 255
+                sums.setdefault(vertex, []).append(u)
+        for vertex, known in sums.items():
+            self.assertAlmostEqual(
+                values[vertex], sum(known) / len(known), delta=0.01)
+        turned, _ = self.along("--along", f"-map:{ramp}", cage=cage)
+        for a, b in zip(values, turned):
+            self.assertAlmostEqual(a, 1 - b, delta=1e-6)
+
+    def test_pictures_that_say_nothing_of_slices(self):
+        self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
+        for file, cage, code, sentence in (
+                (self.folder / "none.png", "uv_seams.obj", 3, "none.png"),
+                (SPOTS, "torus.obj", 1, "has no UVs"),
+                ("", "uv_seams.obj", 1, "--along is x, y, z")):
+            result = self.run_map(
+                CAGES / cage, self.folder / "a.exr", "--scale", 4, "--level",
+                0, "--along", f"map:{file}")
+            self.assert_error(result, code, sentence)
+            self.assertFalse((self.folder / "out.obj").exists())
+
+    def test_slices_by_chance(self):
+        """Whole slices, each of them somewhere; shorter ways, more of them."""
+        self.assert_exit(self.stack(SPOTS, "--vary", *SMALL), 0)
+        values, faces = self.along("--along", "scatter:0.5")
+        self.assertEqual({round(2 * v, 5) for v in values}, {0.0, 1.0, 2.0})
+
+        def borders(values):
+            return sum(
+                len({values[v] for v in face}) > 1 for face in faces)
+        longer, _ = self.along("--along", "scatter:2")
+        self.assertLess(borders(longer), borders(values))
+
+    def test_a_picture_that_varies(self):
+        result = self.stack(SPOTS, "--vary", "--size", 64)
+        self.assert_exit(result, 0)
+        self.assertIn("4 slices of 64 x 64 texels, masks shared", result.stderr)
+        self.assertIn("asked for 0.", result.stderr)
+        self.assert_error(self.stack(SPOTS), 1, "or one with --vary")
+        self.assert_error(
+            self.stack(SPOTS, PEBBLES, "--vary"), 1, "or one with --vary")
 
     def test_the_slice_of_a_texel_is_baked(self):
         """From left to right of a square it goes from 0 to 1."""
