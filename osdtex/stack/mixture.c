@@ -9,9 +9,19 @@ typedef struct moments
     double mean, deviation, low, high;
 } moments;
 
-/* Of a channel, as `texels` show it; NULL: as it is. */
+/* Whether a channel is mixed by cube roots. */
+static bool
+is_seen(const otx_mixture *m, int32_t channel)
+{
+    return m->as_seen && !(m->plain >> channel & 1u);
+}
+
+/* Of a channel, as `texels` show it; NULL: as it is.
+ *
+ *   rooted  its cube roots */
 static moments
-moments_of(const otx_image *image, const int32_t *texels, int32_t channel)
+moments_of(
+    const otx_image *image, const int32_t *texels, int32_t channel, bool rooted)
 {
     const int64_t count = (int64_t)image->width * image->height;
     double sum = 0.0, squares = 0.0, low = (double)INFINITY,
@@ -20,7 +30,8 @@ moments_of(const otx_image *image, const int32_t *texels, int32_t channel)
     for (int64_t i = 0; i < count; ++i)
     {
         const int64_t at = texels ? texels[i] : i;
-        const double v = (double)image->pixels[at * image->channels + channel];
+        const double is = (double)image->pixels[at * image->channels + channel];
+        const double v = rooted ? cbrt(is) : is;
 
         sum += v;
         squares += v * v;
@@ -45,27 +56,48 @@ copy(const otx_image *image, const int32_t *texels, otx_image *out)
             (size_t)channels * sizeof *out->pixels);
 }
 
+/* Of cube roots where it is mixed by them. */
 static void
-mean(const otx_mixture *m, otx_image *out)
+mean(const otx_mixture *m, int32_t channel, otx_image *out)
 {
     const int64_t count = (int64_t)out->width * out->height;
-    const int32_t channels = out->channels;
-    const float b = (float)m->weight, a = 1.0f - b;
+    const int64_t channels = out->channels;
+    const bool rooted = is_seen(m, channel);
 
     for (int64_t i = 0; i < count; ++i)
-        for (int32_t c = 0; c < channels; ++c)
-            out->pixels[i * channels + c] =
-                a * m->from->pixels[(int64_t)m->from_texels[i] * channels + c] +
-                b * m->to->pixels[(int64_t)m->to_texels[i] * channels + c];
+    {
+        const double a =
+            (double)m->from->pixels[m->from_texels[i] * channels + channel];
+        const double b =
+            (double)m->to->pixels[m->to_texels[i] * channels + channel];
+
+        out->pixels[i * channels + channel] =
+            (float)((1.0 - m->weight) * (rooted ? cbrt(a) : a) + m->weight * (rooted ? cbrt(b) : b));
+    }
+}
+
+static void
+unroot(const otx_mixture *m, int32_t channel, otx_image *out)
+{
+    const int64_t count = (int64_t)out->width * out->height;
+
+    for (int64_t i = 0; i < count && is_seen(m, channel); ++i)
+    {
+        float *v = &out->pixels[i * out->channels + channel];
+
+        *v = *v * *v * *v;
+    }
 }
 
 static void
 stretch(const otx_mixture *m, int32_t channel, otx_image *out)
 {
     const int64_t count = (int64_t)out->width * out->height;
-    const moments is = moments_of(out, NULL, channel);
-    const moments a = moments_of(m->from, m->from_texels, channel);
-    const moments b = moments_of(m->to, m->to_texels, channel);
+    const moments is = moments_of(out, NULL, channel, false);
+    const moments a =
+        moments_of(m->from, m->from_texels, channel, is_seen(m, channel));
+    const moments b =
+        moments_of(m->to, m->to_texels, channel, is_seen(m, channel));
     const double wanted =
         (1.0 - m->weight) * a.deviation + m->weight * b.deviation;
     const double gain = is.deviation > 0.0 ? wanted / is.deviation : 1.0;
@@ -95,11 +127,12 @@ otx_mixture_make(otx_run *run, const otx_mixture *mixture, otx_image *out)
     else if (!mixture->from_texels)
         copy(mixture->to, mixture->to_texels, out);
     else
-    {
-        mean(mixture, out);
         for (int32_t c = 0; c < out->channels; ++c)
+        {
+            mean(mixture, c, out);
             if (!(mixture->plain >> c & 1u))
                 stretch(mixture, c, out);
-    }
+            unroot(mixture, c, out);
+        }
     return OSDTEX_OK;
 }

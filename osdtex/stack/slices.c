@@ -9,6 +9,7 @@
 enum
 {
     COARSEST = 32, /* texels of a side */
+    MEND = 3,      /* texels that a match may be moved by */
     FEATURES = 8   /* of a texel: Lab, edges, the mask */
 };
 
@@ -110,6 +111,81 @@ texel_at(const work *w, otx_synth_match m)
     return y * w->width + x;
 }
 
+/* ---- the last step --------------------------------------------------------
+ */
+
+/* Whether a texel of the picture is what the mask of a slice asks for. */
+static bool
+is_right(const work *w, int32_t texel, uint8_t wanted)
+{
+    return (w->input->masks[0][texel] != 0) == (wanted != 0);
+}
+
+static int32_t
+wrapped(const work *w, int32_t x, int32_t y)
+{
+    return otx_image_wrap(y, w->height) * w->width +
+           otx_image_wrap(x, w->width);
+}
+
+/* The nearest texel that is right: of those that go on from a texel beside this
+ * one, else of those around its own. -1: there is none. */
+static int32_t
+find_right(const work *w, const int32_t *from, int32_t texel, uint8_t wanted)
+{
+    const int32_t x = texel % w->width, y = texel / w->width;
+    int32_t best = -1, least = INT32_MAX;
+
+    for (int32_t dy = -MEND; dy <= MEND; ++dy)
+        for (int32_t dx = -MEND; dx <= MEND; ++dx)
+        {
+            const int32_t beside = from[wrapped(w, x + dx, y + dy)];
+            const int32_t on =
+                wrapped(w, beside % w->width - dx, beside / w->width - dy);
+            const int32_t around = wrapped(
+                w, from[texel] % w->width + dx, from[texel] / w->width + dy);
+            const int32_t far = 2 * (dx * dx + dy * dy);
+
+            if (far < least && is_right(w, on, wanted))
+            {
+                least = far;
+                best = on;
+            }
+            if (far + 1 < least && is_right(w, around, wanted))
+            {
+                least = far + 1;
+                best = around;
+            }
+        }
+    return best;
+}
+
+/* What lies on the other side of the mask moves over by a texel or a few:
+ * joints are no wider. */
+static otx_status
+mend_mask(const work *w, const uint8_t *mask, int32_t *texels)
+{
+    const otx_arena_mark mark = otx_arena_here(w->run->scratch);
+    int32_t *from = OTX_NEW(w->run->scratch, int32_t, w->texels);
+
+    OTX_TRY(otx_run_ok(w->run));
+    memcpy(from, texels, (size_t)w->texels * sizeof *from);
+    for (int32_t i = 0; i < w->texels; ++i)
+    {
+        int32_t found = -1;
+
+        if (!is_right(w, from[i], mask[i]))
+            found = find_right(w, from, i, mask[i]);
+        if (found >= 0)
+            texels[i] = found;
+    }
+    otx_arena_release(w->run->scratch, mark);
+    return OSDTEX_OK;
+}
+
+/* ---- from slice to slice --------------------------------------------------
+ */
+
 /* Features of the slice before, where the mask stays as it was. */
 static void
 draw_to(work *w, const int32_t *before, const uint8_t *was, const uint8_t *is)
@@ -155,7 +231,7 @@ make_slice(work *w, int32_t m, const int32_t *before, int32_t *out)
     OTX_TRY(otx_synth_run(w->run, &w->pattern, &chart, 1, &options));
     for (int64_t i = 0; i < w->texels; ++i)
         out[i] = texel_at(w, w->matches[i]);
-    return OSDTEX_OK;
+    return mend_mask(w, w->input->masks[m], out);
 }
 
 /* From nothing, under the first mask, away from slices 0 .. m - 1. */
@@ -186,7 +262,7 @@ vary_slice(work *w, int32_t m, const float *field, int32_t *const *before)
     OTX_TRY(otx_synth_run(w->run, &w->pattern, &chart, 1, &options));
     for (int64_t i = 0; i < w->texels; ++i)
         before[m][i] = texel_at(w, w->matches[i]);
-    return OSDTEX_OK;
+    return mend_mask(w, w->input->masks[0], before[m]);
 }
 
 static otx_status

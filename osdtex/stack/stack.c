@@ -76,7 +76,8 @@ mix_slice(otx_run *run, const otx_stack_key *keys, otx_stack_slice *slice)
         .from_texels = slice->texels[0],
         .to_texels = slice->texels[1],
         .weight = slice->weight,
-        .plain = 8u};
+        .plain = 8u,
+        .as_seen = true};
 
     OTX_TRY(otx_mixture_make(run, &mixture, &slice->linear));
     if (!otx_companions_are_there(&from->companions))
@@ -85,6 +86,7 @@ mix_slice(otx_run *run, const otx_stack_key *keys, otx_stack_slice *slice)
     mixture.to = &to->companions.image;
     mixture.plain = plain_maps(&from->companions);
     mixture.bounded = true;
+    mixture.as_seen = false;
     return otx_mixture_make(run, &mixture, &slice->maps);
 }
 
