@@ -7,24 +7,44 @@
 
 #include <stdio.h>
 
+/* What repeats in a picture that tiles is at least the picture. */
+static otx_status
+take_whole_picture(otx_material *m)
+{
+    const otx_exemplar *e = m->job->exemplars;
+    const otx_vec2 sides[2] = {{e->lab.width, 0.0}, {0.0, e->lab.height}};
+
+    otx_note(
+        m->job->run, OSDTEX_SEVERITY_INFO, "map",
+        otx_where_file(e->source_path),
+        "the exemplar is %s and tiles: the whole picture is the cell of a "
+        "lattice",
+        otx_analysis_name(m->analysis.kind));
+    return otx_analysis_force_lattice(
+        m->job->run, &e->lab, sides, &m->analysis);
+}
+
 static otx_status
 choose_lattice(otx_material *m)
 {
+    const otx_exemplar *e = m->job->exemplars;
     const otx_vec2 *g = m->analysis.generators;
 
     if (m->job->request->analysis)
         m->analysis = *m->job->request->analysis;
     else
-        OTX_TRY(otx_exemplar_analysis(
-            m->job->run, m->job->exemplars, &m->analysis));
+        OTX_TRY(otx_exemplar_analysis(m->job->run, e, &m->analysis));
+    if (m->analysis.kind != OTX_ANALYSIS_LATTICE && e->wrap_x && e->wrap_y &&
+        !m->job->request->analysis && m->settings->courses != OTX_COURSING_ON)
+        OTX_TRY(take_whole_picture(m));
     if (m->analysis.kind != OTX_ANALYSIS_LATTICE &&
         m->settings->courses != OTX_COURSING_ON)
         return otx_fail(
             m->job->run, OSDTEX_ERROR_SUPPORT, "map",
-            otx_where_file(m->job->exemplars->source_path),
+            otx_where_file(e->source_path),
             "the exemplar is %s: periodic coordinates need a lattice; give it "
-            "with {generators}, say {set} courses=on for masonry, or take "
-            "another method",
+            "with {generators}, make the picture tile with {tileable} make, "
+            "say {set} courses=on for masonry, or take another method",
             otx_analysis_name(m->analysis.kind));
     m->cell = fmin(otx_vec2_length(g[0]), otx_vec2_length(g[1])) / m->texels;
     return OSDTEX_OK;

@@ -110,11 +110,30 @@ plain_meshes_have_lattices(void **state)
     test_run_destroy(run);
 }
 
+/* Noise that tiles: the whole picture is the cell. */
+static void
+what_tiles_is_its_own_cell(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_exemplar e = make_exemplar(run, false, true);
+    const otx_cage_input in = field_torus(run, 24, 12);
+    const field_surface *s = field_from_input(run, &in, 1);
+    otx_figures figures;
+    otx_mapping m;
+
+    (void)state;
+    assert_int_equal(
+        map_with(run, &s->surface, &e, 1.5, &m, &figures), OSDTEX_OK);
+    check(&m, &e);
+    assert_true(lattice(&figures, "clean_area_share") > 0.5);
+    test_run_destroy(run);
+}
+
 static void
 what_has_no_lattice_is_refused(void **state)
 {
     otx_run *run = test_run_create();
-    const otx_exemplar e = make_exemplar(run, false, true);
+    const otx_exemplar e = make_exemplar(run, false, false);
     const otx_cage_input in = mesh_cube(run);
     const field_surface *s = field_from_input(run, &in, 2);
     otx_mapping m;
@@ -160,6 +179,7 @@ main(void)
         cmocka_unit_test(the_same_for_any_number_of_threads),
         cmocka_unit_test(what_was_done_is_told),
         cmocka_unit_test(plain_meshes_have_lattices),
+        cmocka_unit_test(what_tiles_is_its_own_cell),
         cmocka_unit_test(what_has_no_lattice_is_refused),
         cmocka_unit_test(the_method_follows_the_exemplar),
     };
