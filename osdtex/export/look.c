@@ -510,6 +510,23 @@ unit_of(otx_receiver receiver)
                : 0.01;
 }
 
+/* Of a stack, where along its axis the corners of the cage are; vertices keep
+ * their numbers from level to level. NULL: there is no axis. */
+static const float *
+corner_slices(const writer *w)
+{
+    const otx_level *cage = &w->layout->surface->levels[0];
+    const float *along = w->mapping->along;
+    float *slices;
+
+    if (!along)
+        return NULL;
+    slices = OTX_NEW(w->run->scratch, float, cage->corner_count);
+    for (int32_t c = 0; slices && c < cage->corner_count; ++c)
+        slices[c] = along[cage->face_verts[c]];
+    return slices;
+}
+
 static otx_status
 write_usda(const writer *w)
 {
@@ -542,6 +559,7 @@ write_usda(const writer *w)
         usda.normals = normals.normals;
         usda.face_normals = normals.indices;
     }
+    usda.slices = corner_slices(w);
     usda.z_up = w->options->z_up;
     usda.meters_per_unit = w->options->meters_per_unit > 0.0
                                ? w->options->meters_per_unit

@@ -146,6 +146,28 @@ pool_uvs(
     return OSDTEX_OK;
 }
 
+/* Of a stack, where along its axis each UV lies, which is the place of its
+ * vertex. NULL: there is no axis, or vertices are not those of the leaf level.
+ */
+static otx_status
+find_depths(
+    otx_run *run, const otx_mapping *mapping, const leaf_faces *faces,
+    const otx_uv_pool *pool, const int32_t *indices, const float **out)
+{
+    float *depths;
+
+    *out = NULL;
+    if (!mapping->along || is_plain(mapping->surface))
+        return OSDTEX_OK;
+    depths = OTX_ZNEW(run->scratch, float, pool->count);
+    OTX_TRY(otx_run_ok(run));
+    for (int32_t c = 0; c < faces->corner_count; ++c)
+        if (indices[c] >= 0)
+            depths[indices[c]] = mapping->along[faces->verts[c]];
+    *out = depths;
+    return OSDTEX_OK;
+}
+
 /* A name table of the cage for the writer, carried to the written faces: NULL
  * where the cage does not have it. */
 static otx_status
@@ -318,17 +340,20 @@ describe_obj(
     leaf_faces faces;
     otx_uv_pool pool;
     const int32_t *face_uvs = NULL;
+    const float *depths;
 
     OTX_TRY(otx_run_ok(run));
     *library = names->mtl_name;
     OTX_TRY(gather_faces(run, mapping, &faces));
     OTX_TRY(pool_uvs(run, mapping->surface, &faces, &pool, &face_uvs));
+    OTX_TRY(find_depths(run, mapping, &faces, &pool, face_uvs, &depths));
     *out = (otx_obj){
         .path = names->obj,
         .uv_count = pool.count,
         .face_count = faces.count,
         .corner_count = faces.corner_count,
         .uvs = pool.uvs,
+        .uv_depths = depths,
         .face_first = faces.first,
         .face_verts = faces.verts,
         .face_uvs = face_uvs,

@@ -63,7 +63,9 @@ typedef struct otx_obj
      * line that was continued is one line. NULL: the writer prints points. */
     const char *point_lines;
     size_t point_line_bytes;
-    const float *uvs; /* [uv_count * 2], finite */
+    const float *uvs;       /* [uv_count * 2], finite */
+    const float *uv_depths; /* [uv_count] third coordinates that are written;
+                             * NULL none */
     /* Normals are written, and passed over in reading. */
     int32_t normal_count;
     const float *normals;        /* [normal_count * 3] */

@@ -86,6 +86,8 @@ write_vertices(otx_text_out *out, const otx_obj *obj)
     {
         otx_text_out_bytes(out, "vt", 2);
         write_floats(out, obj->uvs + 2 * i, 2);
+        if (obj->uv_depths)
+            write_floats(out, obj->uv_depths + i, 1);
         otx_text_out_char(out, '\n');
     }
     for (size_t i = 0; i < (size_t)obj->normal_count; ++i)

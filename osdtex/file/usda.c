@@ -206,6 +206,16 @@ write_uvs(otx_text_out *out, const otx_usda *u)
         out, " (\n            interpolation = \"faceVarying\"\n        )\n");
     write_ints(out, "primvars:st:indices", u->face_uvs, u->corner_count);
     otx_text_out_char(out, '\n');
+    if (!u->slices)
+        return;
+    otx_text_out_string(out, "        float[] primvars:slice = [");
+    for (int32_t c = 0; c < u->corner_count; ++c)
+    {
+        separate(out, c);
+        otx_text_out_float(out, u->slices[c]);
+    }
+    otx_text_out_string(
+        out, "] (\n            interpolation = \"faceVarying\"\n        )\n");
 }
 
 /* Corner by corner: the attribute has no indices. */

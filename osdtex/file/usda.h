@@ -36,6 +36,8 @@ typedef struct otx_usda
     const int32_t *face_normals; /* [corner_count] */
     const float *uvs;            /* [uv_count * 2] */
     const int32_t *face_uvs;     /* [corner_count] */
+    const float *slices; /* [corner_count] of a stack, where along its axis;
+                          * NULL none */
 
     int32_t crease_count, corner_tag_count;
     const int32_t *crease_verts;   /* [crease_count * 2] */
