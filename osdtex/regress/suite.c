@@ -82,6 +82,8 @@ typedef struct choice
     const char *mask;
     const char *again; /* flags of a bake from the saved mapping, NULL none */
     const char *swap;  /* with another picture, NULL the same */
+    const char *stack; /* flags of the stack that is made first, NULL none */
+    const char *to;    /* its other end, NULL none */
 } choice;
 
 /* The same for "[MATERIAL=]FILE". */
@@ -114,6 +116,16 @@ add_several(const otx_suite *suite, const choice *c, json_t *item)
         json_object_set_new(item, "also", list);
     if (c->mask)
         json_object_set_new(item, "mask", seen_from_here(suite, c->mask));
+}
+
+/* The stack that the exemplar is made into. */
+static void
+add_stack(const otx_suite *suite, const choice *c, json_t *item)
+{
+    if (c->stack)
+        json_object_set_new(item, "stack", json_string(c->stack));
+    if (c->stack && c->to)
+        json_object_set_new(item, "to", seen_from_here(suite, c->to));
 }
 
 /* What is done with the mapping once it is saved. */
@@ -150,6 +162,7 @@ add_case(otx_suite *suite, const choice *c, char *error)
         json_object_set(item, "tiles", c->tiles);
     add_several(suite, c, item);
     add_again(suite, c, item);
+    add_stack(suite, c, item);
     if (json_object_set_new(suite->cases, name, item) == 0)
         return true;
     return refuse(error, "memory ran out");
@@ -208,10 +221,11 @@ add_options(otx_suite *suite, json_t *row, choice c, char *error)
 static bool
 check_row(const json_t *row, size_t index, char *error)
 {
-    static const char *const texts[] = {"tiles", "mask", "again", "swap"};
+    static const char *const texts[] = {
+        "tiles", "mask", "again", "swap", "stack", "to"};
     const json_t *options = json_object_get(row, "options");
 
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 6; ++i)
     {
         const json_t *value = json_object_get(row, texts[i]);
 
@@ -282,6 +296,8 @@ add_row(otx_suite *suite, json_t *row, size_t index, char *error)
                     .mask = json_string_value(json_object_get(row, "mask")),
                     .again = json_string_value(json_object_get(row, "again")),
                     .swap = json_string_value(json_object_get(row, "swap")),
+                    .stack = json_string_value(json_object_get(row, "stack")),
+                    .to = json_string_value(json_object_get(row, "to")),
                 };
 
                 if (!add_options(suite, row, c, error))

@@ -17,7 +17,9 @@
  * "tiles": "..." in a row makes tiles of the exemplar first, with these
  * options. An exemplar that is a folder is a material. "again": "..." bakes
  * once more, with these options, from the mapping as it was saved; "swap":
- * another picture in the place of the exemplar then. */
+ * another picture in the place of the exemplar then. "stack": "..." makes a
+ * stack of the exemplar first, with these options, and with the picture that
+ * "to" names. */
 #ifndef OTX_REGRESS_SUITE_H
 #define OTX_REGRESS_SUITE_H
 
@@ -35,7 +37,7 @@ typedef struct otx_suite
     const char *folder; /* as given */
     json_t *table;      /* as in the file */
     json_t *cases;      /* name -> {cage, exemplar, method, options, tiles?,
-                         * also?, mask?, again?, swap?} */
+                         * also?, mask?, again?, swap?, stack?, to?} */
 } otx_suite;
 
 /* False after saying in `error` what is wrong with the table. */

@@ -1,4 +1,4 @@
-/* trial.c -- tiles, map, render; then the files are looked at. */
+/* trial.c -- tiles or a stack, map, render; then the files are looked at. */
 #include "regress/trial.h"
 #include "regress/compare.h"
 #include "regress/metric.h"
@@ -41,10 +41,11 @@ static bool
 is_made_here(const char *name)
 {
     static const char *const names[] = {
-        "tiles.exr", "log.txt", "report.json", "picture.png"};
+        "tiles.exr", "stack.exr",   "stack_mask1.png", "stack_mask2.png",
+        "log.txt",   "report.json", "picture.png"};
     static const size_t stem = sizeof "model" - 1;
 
-    for (int i = 0; i < 4; ++i)
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
         if (strcmp(name, names[i]) == 0)
             return true;
     return strncmp(name, "model", stem) == 0 &&
@@ -224,6 +225,22 @@ make_tiles(trial *t, char path[OTX_SUITE_PATH_BYTES])
     return run_words(t, &words, &cpu);
 }
 
+static bool
+make_stack(trial *t, char path[OTX_SUITE_PATH_BYTES])
+{
+    const char *to = otx_suite_text(t->item, "to");
+    otx_process_words words;
+    double cpu;
+
+    path_in(t, "stack.exr", path);
+    words = begin(t, "stack", otx_suite_text(t->item, "exemplar"));
+    if (to)
+        otx_process_add(&words, to);
+    add_output(t, &words, "stack.exr");
+    otx_process_add_text(&words, otx_suite_text(t->item, "stack"));
+    return run_words(t, &words, &cpu);
+}
+
 /* The exemplars beside the first, and where they go. */
 static void
 add_several(const trial *t, otx_process_words *words)
@@ -293,14 +310,20 @@ map(trial *t)
 {
     const int threads = (int)otx_suite_number(t->suite, "threads", 1.0);
     const char *exemplar = otx_suite_text(t->item, "exemplar");
-    char tiles[OTX_SUITE_PATH_BYTES], path[OTX_SUITE_PATH_BYTES], text[16];
+    char made[OTX_SUITE_PATH_BYTES], path[OTX_SUITE_PATH_BYTES], text[16];
     otx_process_words words;
 
     if (otx_suite_text(t->item, "tiles"))
     {
-        if (!make_tiles(t, tiles))
+        if (!make_tiles(t, made))
             return false;
-        exemplar = tiles;
+        exemplar = made;
+    }
+    if (otx_suite_text(t->item, "stack"))
+    {
+        if (!make_stack(t, made))
+            return false;
+        exemplar = made;
     }
     words = begin(t, "map", otx_suite_text(t->item, "cage"));
     if (is_folder(exemplar))
