@@ -122,8 +122,8 @@ typedef struct osdtex_stack_info
  *         tile in both axes
  *   out   what was made; NULL not wanted
  *
- * ARGUMENT (options; a picture that does not tile; a mask that is empty, full
- * or of another shape), LIMIT, IO, MEMORY, CANCELLED. */
+ * ARGUMENT (options), FORMAT (a picture that does not tile; a mask that is
+ * empty, full or of another shape), LIMIT, IO, MEMORY, CANCELLED. */
 OSDTEX_API osdtex_status osdtex_stack_write(
     osdtex_context *context, const osdtex_exemplar *const *keys,
     int32_t key_count, const osdtex_stack_options *options, const char *path,

@@ -58,7 +58,7 @@ check(
         if (key->exemplar.tiles.cell > 0 || !key->exemplar.wrap_x ||
             !key->exemplar.wrap_y)
             return otx_fail(
-                run, OSDTEX_ERROR_ARGUMENT, STAGE,
+                run, OSDTEX_ERROR_FORMAT, STAGE,
                 otx_where_file(key->exemplar.source_path),
                 "the pictures of a stack tile in both axes, and this one does "
                 "not; make it to: {tileable}=make");
@@ -112,7 +112,7 @@ take_mask(work *w, int32_t k, const osdtex_image *given)
     if (skew > 0.02 * from->width * to->height ||
         skew < -0.02 * from->width * to->height)
         return otx_fail(
-            w->run, OSDTEX_ERROR_ARGUMENT, STAGE,
+            w->run, OSDTEX_ERROR_FORMAT, STAGE,
             otx_where_file(w->exemplars[k].source_path),
             "the mask has %d x %d texels, which is another shape than the "
             "picture's %d x %d",

@@ -327,7 +327,7 @@ check(
     if (share > 0.0 && share < 1.0)
         return OSDTEX_OK;
     return otx_fail(
-        run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
+        run, OSDTEX_ERROR_FORMAT, STAGE, OTX_NOWHERE,
         "the feature mask of the %s picture is %s; give {masks} that show "
         "what is to change",
         which, share > 0.0 ? "full" : "empty");

@@ -48,8 +48,8 @@ typedef struct otx_morph
  *
  *   from, to  [height * width] 0 or 1; both kinds must be in each
  *
- * ARGUMENT where one is empty or full, or slices are out of 2 .. 64; CANCELLED,
- * MEMORY. */
+ * FORMAT where one is empty or full, ARGUMENT where slices are out of 2 .. 64;
+ * CANCELLED, MEMORY. */
 otx_status otx_morph_make(
     otx_run *run, const uint8_t *from, const uint8_t *to, int32_t width,
     int32_t height, const otx_morph_options *options, otx_morph *out);

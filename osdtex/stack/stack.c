@@ -145,8 +145,7 @@ check(
             e->linear.height != first->linear.height ||
             e->linear.channels != first->linear.channels)
             return otx_fail(
-                run, OSDTEX_ERROR_ARGUMENT, STAGE,
-                otx_where_file(e->source_path),
+                run, OSDTEX_ERROR_FORMAT, STAGE, otx_where_file(e->source_path),
                 "the picture has %d x %d texels and %d channels, the first "
                 "one %d x %d and %d",
                 e->linear.width, e->linear.height, e->linear.channels,

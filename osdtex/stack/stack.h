@@ -49,7 +49,7 @@ typedef struct otx_stack
 } otx_stack;
 
 /* In run->arena. Keys are of one size and have the same channels. ARGUMENT,
- * CANCELLED, MEMORY. */
+ * FORMAT (other sizes, an empty or full mask), CANCELLED, MEMORY. */
 otx_status otx_stack_make(
     otx_run *run, const otx_stack_key *keys, int32_t key_count,
     const otx_stack_options *options, otx_stack *out);

@@ -1,6 +1,7 @@
 """test_stack.py -- osdtex stack: slices between two pictures."""
 
 import json
+import re
 import struct
 import sys
 import unittest
@@ -105,14 +106,14 @@ class Stack(ProgramTest):
                 ((SPOTS,), 1, "EXEMPLAR"),
                 ((SPOTS, PEBBLES, "--slices", 1), 1, "2 to 64"),
                 ((SPOTS, PEBBLES, "--morph", "fade"), 1, "advect"),
-                ((SPOTS, open_picture, "--tileable", "keep", *SMALL), 1,
+                ((SPOTS, open_picture, "--tileable", "keep", *SMALL), 2,
                  "does not; make it"),
-                ((SPOTS, self.folder / "none.png"), 4, "none.png"),
+                ((SPOTS, self.folder / "none.png"), 3, "none.png"),
                 ((SPOTS, PEBBLES, "--masks", "a,b,c"), 1, "3 files")):
             result = self.stack(*words)
             self.assertIn(
                 sentence, result.stderr, f"{words}\n{result.stderr}")
-            self.assertNotEqual(result.returncode, 0)
+            self.assert_exit(result, code)
             self.assert_nothing_written()
 
     def test_a_mask_without_a_feature(self):
@@ -122,9 +123,48 @@ class Stack(ProgramTest):
         empty = self.folder / "empty.png"
         Image.new("RGB", (64, 64)).save(empty)
         result = self.stack(SPOTS, PEBBLES, *SMALL, "--masks", empty)
-        self.assertIn("first picture is empty", result.stderr)
+        self.assert_error(result, 2, "first picture is empty")
         self.assertEqual(
             [p.name for p in self.folder.iterdir()], ["empty.png"])
+        for size, light, sentence in (
+                ((64, 64), 255, "first picture is full"),
+                ((64, 32), 255, "another shape")):
+            Image.new("RGB", size, (light,) * 3).save(empty)
+            other = self.folder / "other.png"
+            Image.new("RGB", (64, 64)).save(other)
+            result = self.stack(
+                SPOTS, PEBBLES, *SMALL, "--masks", f"{empty},{other}")
+            self.assert_error(result, 2, sentence)
+            self.assertFalse((self.folder / "a.exr").exists())
+
+    def test_ends_of_other_sizes(self):
+        """They get the size of the first, which is said."""
+        result = self.stack(WAVES / "waves_color.png", PEBBLES, "--slices", 3)
+        self.assert_exit(result, 0)
+        self.assertIn("scaled from 256 x 256 to 128 x 128", result.stderr)
+
+    def test_a_stack_that_is_cut_off(self):
+        self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
+        stack = self.folder / "a.exr"
+        whole = stack.read_bytes()
+        for length in 100, len(whole) // 4, len(whole) // 2:
+            stack.write_bytes(whole[:length])
+            result = self.run_map(
+                CAGES / "torus.obj", stack, "--scale", 4, "--level", 0)
+            self.assert_error(result, 2, "a.exr")
+            self.assertFalse((self.folder / "out.obj").exists())
+
+    def test_places_beyond_the_axis(self):
+        self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
+        rules = self.folder / "rules.json"
+        for material in -0.1, 1.5:
+            rules.write_text(json.dumps(
+                {"constraints": [{"face": 0, "material": material}]}))
+            result = self.run_map(
+                CAGES / "torus.obj", self.folder / "a.exr", "--scale", 4,
+                "--level", 0, "--constraints", rules)
+            self.assert_error(result, 2, "material")
+            self.assertFalse((self.folder / "out.obj").exists())
 
     def test_slices_on_a_surface(self):
         self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
@@ -253,10 +293,39 @@ class Stack(ProgramTest):
         result = self.stack(SPOTS, "--vary", "--size", 64)
         self.assert_exit(result, 0)
         self.assertIn("4 slices of 64 x 64 texels, masks shared", result.stderr)
-        self.assertIn("asked for 0.", result.stderr)
+        found = re.search(r"asked for ([\d.]+)", result.stderr)
+        self.assertGreater(float(found.group(1)), 0.9)
         self.assert_error(self.stack(SPOTS), 1, "or one with --vary")
         self.assert_error(
             self.stack(SPOTS, PEBBLES, "--vary"), 1, "or one with --vary")
+
+    def test_slices_are_told_beside_uvs(self):
+        """In an OBJ as the third coordinate, in USD as a primvar; vertices of
+        the cage are those of its level."""
+        self.assert_exit(self.stack(SPOTS, PEBBLES, *SMALL), 0)
+        values, faces = self.along("--along", "x")
+        self.assert_exit(self.run_map(
+            CAGES / "torus.obj", self.folder / "a.exr", "--scale", 4,
+            "--level", 0, "--along", "x", "--resolution", 512), 0)
+        lines = (self.folder / "out.obj").read_text().splitlines()
+        depths = [float(l.split()[3]) for l in lines if l.startswith("vt ")]
+        corners = [l.split()[1:] for l in lines if l.startswith("f ")]
+        self.assertEqual(len(corners), len(faces))
+        for corner in sum(corners, []):
+            vertex, uv = corner.split("/")[:2]
+            self.assertAlmostEqual(
+                depths[int(uv) - 1], values[int(vertex) - 1], delta=1e-5)
+        usda = (self.folder / "t.usda").read_text()
+        told = re.search(r"float\[\] primvars:slice = \[([^]]*)\]", usda)
+        for value, vertex in zip(
+                map(float, told.group(1).split(",")), sum(faces, [])):
+            self.assertAlmostEqual(value, values[vertex], delta=1e-5)
+        # Other exemplars have no such axis.
+        self.assert_exit(self.run_map(
+            CAGES / "torus.obj", SPOTS, "--scale", 4, "--level", 0,
+            name="plain.obj"), 0)
+        self.assertRegex(
+            (self.folder / "plain.obj").read_text(), r"\nvt \S+ \S+\n")
 
     def test_the_slice_of_a_texel_is_baked(self):
         """From left to right of a square it goes from 0 to 1."""

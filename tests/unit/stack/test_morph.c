@@ -119,11 +119,11 @@ masks_without_a_feature_are_refused(void **state)
     paint_spots(a);
     assert_int_equal(
         otx_morph_make(run, a, empty, SIDE, SIDE, &options, &m),
-        OSDTEX_ERROR_ARGUMENT);
+        OSDTEX_ERROR_FORMAT);
     memset(empty, 1, sizeof empty);
     assert_int_equal(
         otx_morph_make(run, empty, a, SIDE, SIDE, &options, &m),
-        OSDTEX_ERROR_ARGUMENT);
+        OSDTEX_ERROR_FORMAT);
     test_run_destroy(run);
 }
 
