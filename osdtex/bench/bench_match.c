@@ -194,10 +194,12 @@ static double
 largest_deviation(bench_match_scene *s, double angle)
 {
     const otx_plane *plane = &s->matcher->planes[0];
+    const otx_match_query query = otx_match_query_defaults(&angle, 1);
     otx_exhaust_buffers buffers;
     double largest = 0.0;
 
-    if (otx_exhaust_buffers_create(s->run.arena, plane, &buffers) != OSDTEX_OK)
+    if (otx_exhaust_buffers_create(s->run.arena, plane, &query, &buffers) !=
+        OSDTEX_OK)
         return INFINITY;
     const otx_exhaust_sums sums =
         otx_exhaust_map(plane, &s->mask, angle, &buffers);

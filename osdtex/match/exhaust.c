@@ -17,7 +17,8 @@
 
 otx_status
 otx_exhaust_buffers_create(
-    otx_arena *arena, const otx_plane *plane, otx_exhaust_buffers *out)
+    otx_arena *arena, const otx_plane *plane, const otx_match_query *query,
+    otx_exhaust_buffers *out)
 {
     const size_t floats =
         (size_t)plane->fft_height * otx_fft_stride(plane->fft);
@@ -32,8 +33,9 @@ otx_exhaust_buffers_create(
     out->scratch = OTX_NEW(arena, float, otx_fft_scratch_floats(plane->fft));
     out->map = OTX_NEW(arena, float, floats);
     out->usage_column = OTX_NEW(arena, int32_t, plane->fft_width);
-    return out->scratch && out->map && out->usage_column ? OSDTEX_OK
-                                                         : OSDTEX_ERROR_MEMORY;
+    if (!out->scratch || !out->map || !out->usage_column)
+        return OSDTEX_ERROR_MEMORY;
+    return otx_wear_create(arena, query, &out->wear);
 }
 
 /* ------------------------------------------------------------ painting */
@@ -43,6 +45,7 @@ typedef struct painter
     const otx_mask *mask;
     const otx_plane *plane;
     const otx_exhaust_buffers *buffers;
+    int32_t first_x, first_y; /* pixel of the frame that is drawn at 0 */
     otx_exhaust_sums *sums;
 } painter;
 
@@ -56,9 +59,9 @@ paint_span(void *context, const otx_mask_span *span)
     const int32_t channels = plane->channels;
     const double step_x = span->source_step.x / from->pixel.x;
     const double step_y = span->source_step.y / from->pixel.y;
-    const int32_t y = (span->y - p->sums->base_y) % plane->fft_height;
+    const int32_t y = (span->y - p->first_y) % plane->fft_height;
     const size_t row = (size_t)y * otx_fft_stride(plane->fft);
-    int32_t x = (span->x - p->sums->base_x) % plane->fft_width;
+    int32_t x = (span->x - p->first_x) % plane->fft_width;
     double u = span->source.x / from->pixel.x;
     double v = span->source.y / from->pixel.y;
     double energy = 0.0, weights = 0.0;
@@ -103,12 +106,12 @@ otx_exhaust_map(
         .rotation = otx_vec2_polar(angle), .pixel = plane->pixel};
     const otx_mask_box box = otx_mask_bounds(mask, &frame);
     /* The first and the last row whose centres the mask can hold. */
+    const int32_t x = (int32_t)ceil(box.low.x - 0.5);
+    const int32_t y = (int32_t)ceil(box.low.y - 0.5);
     otx_exhaust_sums sums = {
-        .base_x = (int32_t)ceil(box.low.x - 0.5),
-        .base_y = (int32_t)ceil(box.low.y - 0.5)};
-    int32_t rows = (int32_t)ceil(box.high.y - 0.5) - sums.base_y;
-    painter p = {
-        .mask = mask, .plane = plane, .buffers = buffers, .sums = &sums};
+        .base_x = x + plane->pad_x, .base_y = y + plane->pad_y};
+    int32_t rows = (int32_t)ceil(box.high.y - 0.5) - y;
+    painter p = {mask, plane, buffers, x, y, &sums};
 
     if (rows > plane->fft_height)
         rows = plane->fft_height;
@@ -166,6 +169,7 @@ penalise(
     const otx_vec2 centre = otx_vec2_mul(otx_vec2_polar(angle), query->centre);
     const float energy = (float)sums->energy;
 
+    otx_wear_tabulate(matcher, query, angle, &buffers->wear);
     for (int32_t x = map->x_begin; x < map->x_end; ++x)
         buffers->usage_column[x] = otx_matcher_usage_cell(
             centre.x + (x - sums->base_x) * plane->pixel.x, matcher->width,
@@ -175,15 +179,14 @@ penalise(
         const int32_t cell = otx_matcher_usage_cell(
             centre.y + (y - sums->base_y) * plane->pixel.y, matcher->height,
             matcher->wrap_y, query->usage_height);
-        const float *usage =
-            query->usage + (size_t)cell * (size_t)query->usage_width;
+        const float *factors =
+            buffers->wear.factors + (size_t)cell * (size_t)query->usage_width;
         float *row = buffers->map + (size_t)y * map->stride;
 
         for (int32_t x = map->x_begin; x < map->x_end; ++x)
         {
             const float error = row[x] + energy;
-            const float factor = 1.0f + (float)query->usage_weight *
-                                            usage[buffers->usage_column[x]];
+            const float factor = factors[buffers->usage_column[x]];
 
             row[x] = (error > 0.0f ? error * factor : 0.0f) - energy;
         }
@@ -214,10 +217,10 @@ otx_exhaust_angle(
     if (!(sums.weight > 0.0) ||
         !valid_offsets(
             range.low.x, range.high.x, plane->pixel.x, sums.base_x,
-            plane->width, plane->wrap_x, &map.x_begin, &map.x_end) ||
+            plane->fft_width, plane->wrap_x, &map.x_begin, &map.x_end) ||
         !valid_offsets(
             range.low.y, range.high.y, plane->pixel.y, sums.base_y,
-            plane->height, plane->wrap_y, &map.y_begin, &map.y_end))
+            plane->fft_height, plane->wrap_y, &map.y_begin, &map.y_end))
         return;
     if (query->usage)
         penalise(matcher, plane, query, radians, &sums, &map, buffers);
@@ -237,8 +240,8 @@ otx_exhaust_placement(
         .rotation = otx_vec2_polar(angle), .pixel = plane->pixel};
     const otx_mask_box box = otx_mask_bounds(mask, &frame);
     const otx_vec2 shift = {
-        (peak->x - ceil(box.low.x - 0.5)) * plane->pixel.x,
-        (peak->y - ceil(box.low.y - 0.5)) * plane->pixel.y};
+        (peak->x - plane->pad_x - ceil(box.low.x - 0.5)) * plane->pixel.x,
+        (peak->y - plane->pad_y - ceil(box.low.y - 0.5)) * plane->pixel.y};
 
     return (otx_match){
         .angle = angle,

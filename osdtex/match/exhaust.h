@@ -4,6 +4,7 @@
 
 #include "match/matcher.h"
 #include "match/peaks.h"
+#include "match/wear.h"
 
 /* Buffers of one thread, for one level. */
 typedef struct otx_exhaust_buffers
@@ -12,19 +13,21 @@ typedef struct otx_exhaust_buffers
     float *scratch;
     float *map;
     int32_t *usage_column; /* cell of the usage grid for each x0 */
+    otx_wear wear;
 } otx_exhaust_buffers;
 
 /* MEMORY. */
 otx_status otx_exhaust_buffers_create(
-    otx_arena *arena, const otx_plane *plane, otx_exhaust_buffers *out);
+    otx_arena *arena, const otx_plane *plane, const otx_match_query *query,
+    otx_exhaust_buffers *out);
 
 /* What eq. 2 needs beside the map: E(x0) = (energy + map(x0)) / weight. */
 typedef struct otx_exhaust_sums
 {
     double energy; /* sum of weight |I|^2 */
     double weight; /* sum of J; 0 when no pixel was hit */
-    /* Pixel of the mask's frame (R(angle) flat / pixel) that x0 counts from:
-     * shift = (x0 - base) pixel. */
+    /* Pixel of the mask's frame (R(angle) flat / pixel) that x0 counts from,
+     * the plane's pad included: shift = (x0 - base) pixel. */
     int32_t base_x, base_y;
 } otx_exhaust_sums;
 

@@ -60,11 +60,14 @@ typedef struct otx_match_query
      * of the patch and of what is used around it. */
     const otx_vec2 *cover;
     int32_t cover_count;
+    bool overhang; /* the mask need not lie inside: what reaches over the rim,
+                    * up to .3 of the picture, costs about as much as good
+                    * matches do elsewhere */
 
-    /* Squared errors are multiplied by 1 + usage_weight * usage, looked up
-     * where `centre` lands, before they are compared; NULL none.
-     * [usage_height * usage_width] cells over the whole exemplar. The error
-     * that is returned is without it. */
+    /* Squared errors are multiplied by 1 + usage_weight * the mean usage of
+     * what `cover` lands on (where it is empty, `centre`), before they are
+     * compared; NULL none. [usage_height * usage_width] cells over the whole
+     * exemplar. The error that is returned is without it. */
     const float *usage;
     int32_t usage_width;
     int32_t usage_height;

@@ -8,6 +8,13 @@ enum
     SMALLEST_SIDE = 16 /* of the coarsest level, pixels */
 };
 
+/* Share of a side by which a mask may reach over a rim. */
+static const double OVERHANG = 0.3;
+
+/* Of sigma squared. The distance from the mean is half of that in the mean, so
+ * that it comes to about what good matches have elsewhere. */
+static const double BEYOND = 0.2;
+
 static void
 mean_color(const otx_image *image, double mean[OTX_PLANE_LANES])
 {
@@ -82,13 +89,16 @@ otx_matcher_create_like(
     if (finest_level >= matcher->level_count)
         finest_level = matcher->level_count - 1;
     matcher->finest_level = finest_level < 0 ? 0 : finest_level;
+    matcher->overhang.x = wrap_x ? 0.0 : OVERHANG * match->width;
+    matcher->overhang.y = wrap_y ? 0.0 : OVERHANG * match->height;
     mean_color(match, matcher->mean);
     if (like)
         memcpy(matcher->mean, like->mean, sizeof matcher->mean);
     for (int32_t l = 0; l < matcher->level_count; ++l)
         OTX_TRY(otx_plane_create(
-            run, match, wrap_x, wrap_y, l, matcher->mean,
-            l >= matcher->finest_level, &matcher->planes[l]));
+            run, match, wrap_x, wrap_y, l, matcher->mean, matcher->overhang,
+            BEYOND * sigma * sigma, l >= matcher->finest_level,
+            &matcher->planes[l]));
     *out = matcher;
     return OSDTEX_OK;
 }
@@ -112,15 +122,16 @@ otx_matcher_shifts(
         .rotation = otx_vec2_polar(angle), .pixel = {1.0, 1.0}};
     const otx_mask_box box = otx_mask_bounds(mask, &frame);
     otx_matcher_range range = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
+    const double over = query->overhang ? 1.0 : 0.0;
 
     if (!matcher->wrap_x)
         limit_axis(
-            box.low.x, box.high.x, 0.0, matcher->width, &range.low.x,
-            &range.high.x);
+            box.low.x, box.high.x, -over * matcher->overhang.x, matcher->width,
+            &range.low.x, &range.high.x);
     if (!matcher->wrap_y)
         limit_axis(
-            box.low.y, box.high.y, 0.0, matcher->height, &range.low.y,
-            &range.high.y);
+            box.low.y, box.high.y, -over * matcher->overhang.y, matcher->height,
+            &range.low.y, &range.high.y);
     for (int32_t i = 0; i < query->cover_count; ++i)
     {
         const otx_vec2 p = otx_mask_place(&frame, query->cover[i]);
@@ -133,23 +144,6 @@ otx_matcher_shifts(
                 p.y, p.y, 0.5, matcher->height, &range.low.y, &range.high.y);
     }
     return range;
-}
-
-double
-otx_matcher_penalty(
-    const otx_matcher *matcher, const otx_match_query *query, otx_vec2 landing)
-{
-    if (!query->usage)
-        return 1.0;
-    const int32_t i = otx_matcher_usage_cell(
-        landing.x, matcher->width, matcher->wrap_x, query->usage_width);
-    const int32_t j = otx_matcher_usage_cell(
-        landing.y, matcher->height, matcher->wrap_y, query->usage_height);
-
-    return 1.0 +
-           query->usage_weight *
-               (double)query
-                   ->usage[(size_t)j * (size_t)query->usage_width + (size_t)i];
 }
 
 typedef struct scorer
@@ -182,11 +176,13 @@ square_at(const otx_plane *plane, otx_vec2 source, const float *texel)
 static void
 score_span(void *context, const otx_mask_span *span)
 {
+    static const float mean[OTX_PLANE_LANES] = {0};
     scorer *s = context;
     const otx_plane *plane = s->plane;
     const otx_plane *from =
         otx_matcher_source(s->mask->triangles[span->triangle].from, plane);
     const int32_t y = otx_view_fold(span->y, plane->height, plane->wrap_y);
+    const bool beyond = otx_plane_ends(span->y, plane->height, plane->wrap_y);
     double sum = 0.0, weights = 0.0;
 
     for (int32_t n = 0; n < span->count; ++n)
@@ -199,7 +195,10 @@ score_span(void *context, const otx_mask_span *span)
             span->source.x + n * span->source_step.x,
             span->source.y + n * span->source_step.y};
 
-        sum += weight * square_at(from, source, otx_plane_at(plane, x, y));
+        if (beyond || otx_plane_ends(span->x + n, plane->width, plane->wrap_x))
+            sum += weight * (plane->beyond + square_at(from, source, mean));
+        else
+            sum += weight * square_at(from, source, otx_plane_at(plane, x, y));
         weights += weight;
     }
     s->sum += sum;

@@ -21,6 +21,8 @@ struct otx_matcher
     double mean[OTX_PLANE_LANES]; /* that all planes have subtracted */
     int32_t finest_level;         /* first with spectra */
     int32_t level_count;
+    otx_vec2 overhang; /* texels by which a mask may reach over the rim; 0
+                        * along axes that tile */
     otx_plane planes[OTX_MATCHER_MAX_LEVELS];
 };
 
@@ -59,10 +61,6 @@ otx_matcher_usage_cell(double x, int32_t size, bool wrap, int32_t cells)
 
     return cell < cells ? cell : cells - 1;
 }
-
-/* 1 + usage_weight * usage where the centre lands. */
-double otx_matcher_penalty(
-    const otx_matcher *matcher, const otx_match_query *query, otx_vec2 landing);
 
 /* The same squared error as otx_matcher_score, mean per unit of weight, not
  * divided by sigma; INFINITY when the mask covers no texel. */

@@ -103,15 +103,21 @@ fill_component(const otx_plane *plane, int32_t channel, float *rows)
     const size_t stride = otx_fft_stride(plane->fft);
 
     memset(rows, 0, (size_t)plane->fft_height * stride * sizeof *rows);
+    if (channel == plane->channels)
+        for (int32_t y = 0; y < plane->fft_height; ++y)
+            for (int32_t x = 0; x < plane->fft_width; ++x)
+                rows[(size_t)y * stride + (size_t)x] = (float)plane->beyond;
     for (int32_t y = 0; y < plane->height; ++y)
         for (int32_t x = 0; x < plane->width; ++x)
         {
             const float *p = otx_plane_at(plane, x, y);
 
-            rows[(size_t)y * stride + (size_t)x] =
-                channel < plane->channels
-                    ? p[channel]
-                    : p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3];
+            rows
+                [(size_t)(y + plane->pad_y) * stride +
+                 (size_t)(x + plane->pad_x)] =
+                    channel < plane->channels
+                        ? p[channel]
+                        : p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3];
         }
 }
 
@@ -157,7 +163,8 @@ make_spectra(otx_run *run, otx_plane *plane)
 otx_status
 otx_plane_create(
     otx_run *run, const otx_image *match, bool wrap_x, bool wrap_y,
-    int32_t level, const double *mean, bool searched, otx_plane *out)
+    int32_t level, const double *mean, otx_vec2 overhang, double beyond,
+    bool searched, otx_plane *out)
 {
     otx_plane plane = {
         .width = side_at_level(match->width, level),
@@ -166,6 +173,7 @@ otx_plane_create(
         .level = level,
         .wrap_x = wrap_x,
         .wrap_y = wrap_y,
+        .beyond = beyond,
     };
 
     plane.pixel.x = (double)match->width / plane.width;
@@ -179,8 +187,13 @@ otx_plane_create(
     OTX_TRY(resample(run, match, &plane));
     subtract_mean(&plane, mean);
     fill_apron(&plane);
-    plane.fft_width = wrap_x ? plane.width : otx_fft_good_size(plane.width);
-    plane.fft_height = wrap_y ? plane.height : otx_fft_good_size(plane.height);
+    /* What reaches over one rim wraps into the zeros before the other. */
+    plane.pad_x = wrap_x ? 0 : (int32_t)ceil(overhang.x / plane.pixel.x) + 1;
+    plane.pad_y = wrap_y ? 0 : (int32_t)ceil(overhang.y / plane.pixel.y) + 1;
+    plane.fft_width =
+        wrap_x ? plane.width : otx_fft_good_size(plane.width + plane.pad_x);
+    plane.fft_height =
+        wrap_y ? plane.height : otx_fft_good_size(plane.height + plane.pad_y);
     if (searched)
         OTX_TRY(make_spectra(run, &plane));
     *out = plane;

@@ -32,8 +32,14 @@ typedef struct otx_plane
     size_t row_floats;
 
     const otx_fft *fft; /* NULL where the level is not searched */
-    int32_t fft_width;  /* = width where it tiles, else padded with zeros */
+    int32_t fft_width;  /* = width where it tiles, else padded with zeros, and
+                         * in the sum of squares with `beyond` */
     int32_t fft_height;
+    /* What a mask shows beyond the rim costs its squared distance from the mean
+     * colour, and this. */
+    double beyond;
+    int32_t pad_x, pad_y; /* of these, before the first column and row;
+                           * there are as many behind the last */
     /* Divided by fft_width * fft_height, so that a correlation needs no
      * further factor. The weights go with spectra[channels]. */
     float *spectra[OTX_PLANE_SPECTRA];
@@ -87,10 +93,21 @@ otx_plane_sample(
                    w11 * b[k + OTX_PLANE_LANES];
 }
 
+/* Whether pixel x lies beyond the rim of what does not tile. */
+static inline bool
+otx_plane_ends(int32_t x, int32_t size, bool wrap)
+{
+    return !wrap && (x < 0 || x >= size);
+}
+
 /* Resamples `match` to the plane of `level` in run->arena, less `mean`
- * [channels], by exact area averages; with spectra when `searched`. */
+ * [channels], by exact area averages; with spectra when `searched`.
+ *
+ *   overhang  texels by which masks may reach over the rim
+ *   beyond    what they cost there, see otx_plane */
 otx_status otx_plane_create(
     otx_run *run, const otx_image *match, bool wrap_x, bool wrap_y,
-    int32_t level, const double *mean, bool searched, otx_plane *out);
+    int32_t level, const double *mean, otx_vec2 overhang, double beyond,
+    bool searched, otx_plane *out);
 
 #endif

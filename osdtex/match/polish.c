@@ -110,11 +110,12 @@ floor_of(double x)
     return x < i ? i - 1.0 : i;
 }
 
-/* The pick as it falls on the pixels of the level under a placement. */
-static sample
+/* The pick as it falls on the pixels of the level under a placement. False
+ * when it falls beyond the rim. */
+static bool
 snap(
     const otx_polish_pick *pick, const otx_plane *plane,
-    const otx_mask_frame *frame)
+    const otx_mask_frame *frame, sample *out)
 {
     const otx_plane *from = otx_matcher_source(pick->from, plane);
     const otx_vec2 q = otx_mask_place(frame, pick->flat);
@@ -133,7 +134,21 @@ snap(
         otx_plane_wrap(y / from->pixel.y, from->height, from->wrap_y), s.color);
     s.x = otx_view_fold((int32_t)cell.x, plane->width, plane->wrap_x);
     s.y = otx_view_fold((int32_t)cell.y, plane->height, plane->wrap_y);
-    return s;
+    *out = s;
+    return !otx_plane_ends((int32_t)cell.x, plane->width, plane->wrap_x) &&
+           !otx_plane_ends((int32_t)cell.y, plane->height, plane->wrap_y);
+}
+
+/* What a sample costs that falls beyond the rim. */
+static double
+cost_beyond(
+    const otx_plane *plane, const float color[OTX_PLANE_LANES], float weight)
+{
+    double square = plane->beyond;
+
+    for (int k = 0; k < OTX_PLANE_LANES; ++k)
+        square += (double)(color[k] * color[k]);
+    return (double)weight * square;
 }
 
 /* sums[dy][dx] of the squared differences around the snapped samples. */
@@ -185,18 +200,25 @@ otx_polish_window(
     const int32_t side = 2 * radius + 1;
     sample *samples = OTX_NEW(scratch, sample, count);
     double sums[MAX_SIDE * MAX_SIDE];
-    double weight = 0.0, best = INFINITY;
+    double weight = 0.0, beyond = 0.0, best = INFINITY;
+    int32_t inside = 0;
 
     if (!samples)
         return OSDTEX_ERROR_MEMORY;
     for (int32_t i = 0; i < count; ++i)
     {
         /* Every n-th pick, so that few samples still cover the mask. */
-        samples[i] = snap(
-            &picks->list[(int64_t)i * picks->count / count], plane, &frame);
-        weight += (double)samples[i].weight;
+        sample *s = &samples[inside];
+
+        if (snap(
+                &picks->list[(int64_t)i * picks->count / count], plane, &frame,
+                s))
+            ++inside;
+        else
+            beyond += cost_beyond(plane, s->color, s->weight);
+        weight += (double)s->weight;
     }
-    sum_window(plane, samples, count, radius, sums);
+    sum_window(plane, samples, inside, radius, sums);
     for (int32_t n = 0; n < side * side; ++n)
     {
         const otx_vec2 shift = {
@@ -208,7 +230,7 @@ otx_polish_window(
         best = sums[n];
         match->shift = shift;
     }
-    match->error = weight > 0.0 ? best / weight : INFINITY;
+    match->error = weight > 0.0 ? (best + beyond) / weight : INFINITY;
     otx_arena_release(scratch, mark);
     return OSDTEX_OK;
 }
@@ -252,6 +274,13 @@ cell_at(const otx_plane *plane, otx_vec2 p)
     return (cell){
         low, low + plane->row_floats, (float)(x - 0.5 - i),
         (float)(y - 0.5 - j)};
+}
+
+static bool
+is_beyond(const otx_plane *plane, otx_vec2 p)
+{
+    return (!plane->wrap_x && !(p.x >= 0.0 && p.x <= plane->width)) ||
+           (!plane->wrap_y && !(p.y >= 0.0 && p.y <= plane->height));
 }
 
 /* One sample, all channels. */
@@ -369,8 +398,11 @@ evaluate_run(
         const float arm[2] = {(float)(p.x - middle.x), (float)(p.y - middle.y)};
         const cell at = cell_at(plane, p);
 
-        add_residuals(&at, arm, colors[i], pick->weight, &sum);
         out->weight += (double)pick->weight;
+        if (is_beyond(plane, p))
+            out->error += cost_beyond(plane, colors[i], pick->weight);
+        else
+            add_residuals(&at, arm, colors[i], pick->weight, &sum);
     }
     add_lanes(&sum, out);
 }

@@ -71,7 +71,7 @@ search_lane(void *context, int64_t lane, otx_worker *worker)
     if (angle >= s->query->angle_count)
         return OSDTEX_OK;
     OTX_TRY(otx_exhaust_buffers_create(
-        worker->scratch, &s->matcher->planes[s->level], &buffers));
+        worker->scratch, &s->matcher->planes[s->level], s->query, &buffers));
     for (; angle < s->query->angle_count;
          angle = atomic_fetch_add(&s->next_angle, 1))
         otx_exhaust_angle(
@@ -148,8 +148,7 @@ landing(const search *s, const otx_match *match)
 static void
 rank_candidate(const search *s, candidate *c)
 {
-    c->rank = c->match.error *
-              otx_matcher_penalty(s->matcher, s->query, landing(s, &c->match));
+    c->rank = c->match.error * otx_wear_factor(s->matcher, s->query, &c->match);
 }
 
 /* Onto whole texels, where levels of odd sizes do not lead by themselves. */

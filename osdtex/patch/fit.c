@@ -17,7 +17,7 @@ typedef struct trial
     otx_worker *worker; /* of the turn; NULL: the only node */
     otx_arena *scratch;
     otx_chart_space *space;
-    otx_vec2 *points; /* [point_count] corners of the core */
+    otx_vec2 *points; /* [point_count] that must land inside */
     int32_t point_count;
 } trial;
 
@@ -36,6 +36,7 @@ search(
     query.coarse_levels = s->coarse;
     query.coarse_keep = s->keep;
     query.gauss_newton = s->mode == OTX_PATCH_BEST;
+    query.overhang = m->spares.patch != NULL;
     query.cover = t->points;
     query.cover_count = t->point_count;
     query.centre = otx_placing_middle(&node->chart);
@@ -43,7 +44,8 @@ search(
     {
         query.usage = supply->usage;
         query.usage_width = query.usage_height = OTX_USAGE_CELLS;
-        query.usage_weight = s->usage;
+        query.usage_weight =
+            s->usage * m->cover.total_area / m->cover.done_area;
     }
     return t->worker ? otx_matcher_search_within(
                            t->worker, supply->matcher, mask, &query, best,
@@ -118,7 +120,7 @@ find_place(const otx_mosaic *m, trial *t, otx_fit *fit)
     int32_t count = 0;
     bool goes_on;
 
-    t->points = otx_placing_points(&node->chart, t->scratch, &t->point_count);
+    t->points = otx_placing_points(m, node, t->scratch, &t->point_count);
     if (!t->points)
         return OSDTEX_ERROR_MEMORY;
     OTX_TRY(
@@ -211,53 +213,63 @@ otx_fit_find(const otx_mosaic *m, otx_fit *fits, int32_t count)
 
 /* -- commit -------------------------------------------------------------- */
 
+/* 1 where a cell has got its even share of the surface. */
 static void
-note_usage(otx_mosaic *m, const otx_node *node, otx_vec2 middle)
+note_usage(otx_mosaic *m, const otx_node *node, int32_t face, otx_vec2 middle)
 {
     const otx_supply *supply = otx_supply_of(m, node);
-    const otx_image *image = &supply->exemplar->match;
-    const otx_vec2 p = otx_vec2_add(
-        otx_vec2_mul(otx_vec2_polar(node->placed.angle), middle),
-        node->placed.shift);
-    const double u = p.x / image->width, v = p.y / image->height;
-    int32_t x = (int32_t)((u - floor(u)) * OTX_USAGE_CELLS);
-    int32_t y = (int32_t)((v - floor(v)) * OTX_USAGE_CELLS);
 
-    if (x >= OTX_USAGE_CELLS)
-        x = OTX_USAGE_CELLS - 1;
-    if (y >= OTX_USAGE_CELLS)
-        y = OTX_USAGE_CELLS - 1;
-    /* 1 where a cell has got its even share of the surface. */
-    supply->usage[y * OTX_USAGE_CELLS + x] +=
-        (float)(node->cluster.area / supply->area * OTX_USAGE_CELLS * OTX_USAGE_CELLS);
+    supply->usage[otx_supply_cell(supply, middle)] +=
+        (float)(m->job.leaves.areas[face] / supply->area * OTX_USAGE_CELLS * OTX_USAGE_CELLS);
 }
 
+/* Gives a face to a placed node, in whose chart it is face `i`. */
+static void
+show(otx_mosaic *m, const otx_node *node, int32_t i)
+{
+    const otx_chart *chart = &node->chart;
+    const int32_t face = chart->faces[i];
+    const int32_t corner = m->job.leaves.level->face_first[face];
+    const int32_t sides = chart->first[i + 1] - chart->first[i];
+    otx_vec2 sum = {0, 0};
+
+    m->cover.face_patch[face] = node->patch;
+    for (int32_t k = 0; k < sides; ++k)
+    {
+        const otx_vec2 at = otx_spare_place(
+            m, node, chart->flat[chart->corners[chart->first[i] + k]]);
+
+        m->cover.uvs[corner + k] = at;
+        sum = otx_vec2_add(sum, at);
+    }
+    note_usage(m, node, face, otx_vec2_scale(1.0 / sides, sum));
+}
+
+/* Faces that reach over the rim are shown by who could. */
 static void
 commit(otx_mosaic *m, int32_t index, otx_match placed)
 {
     otx_node *node = &m->forest.nodes[index];
-    const otx_chart *chart = &node->chart;
-    const otx_vec2 turn = otx_vec2_polar(placed.angle);
 
     node->placed = placed;
     node->patch = m->cover.patch_count;
     if (m->cover.patch_exemplar)
         m->cover.patch_exemplar[node->patch] = (uint8_t)node->supply;
     m->forest.patch_node[m->cover.patch_count++] = index;
-    for (int32_t i = 0; i < chart->core_count; ++i)
+    for (int32_t i = 0; i < node->chart.core_count; ++i)
     {
-        const int32_t face = chart->faces[i];
-        const int32_t corner = m->job.leaves.level->face_first[face];
+        int32_t at;
+        const otx_node *other =
+            otx_spare_find(m, node, node->chart.faces[i], &at);
 
-        m->cover.face_patch[face] = node->patch;
-        for (int32_t c = chart->first[i]; c < chart->first[i + 1]; ++c)
-            m->cover.uvs[corner + c - chart->first[i]] = otx_vec2_add(
-                otx_vec2_mul(turn, chart->flat[chart->corners[c]]),
-                placed.shift);
+        if (other && !otx_spare_is_inside(m, node, i))
+            show(m, other, at);
+        else
+            show(m, node, i);
     }
     m->cover.done_area += node->cluster.area;
     m->tally.fit_error += placed.error;
-    note_usage(m, node, otx_placing_middle(chart));
+    otx_spare_note(m, node);
 }
 
 bool

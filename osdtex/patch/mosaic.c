@@ -62,6 +62,7 @@ otx_mosaic_begin(otx_mosaic *m, const otx_guide *guides)
         otx_given_take(job, &m->cover);
     OTX_TRY(make_forest(m));
     OTX_TRY(otx_supply_prepare(m));
+    OTX_TRY(otx_spares_create(m));
     OTX_TRY(otx_forest_start(m));
     assert(!otx_forest_check(m));
     return OSDTEX_OK;

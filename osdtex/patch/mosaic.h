@@ -15,6 +15,7 @@
  *     mask_build.c     what their neighbours show; band.c cuts it
  *     angles.c         how they may be turned; follow.c by a guide
  *     placing.c        where they may lie; continuation.c, first.c: exactly
+ *     spare.c          what neighbours could show instead of them
  *     fit.c            looks them up, makes patches of them; bend.c bends them
  *     stitch.c         the cut between patches, and what is relaxed after it
  *     straighten.c, unfold.c   set right what came out reversed */
@@ -24,6 +25,7 @@
 #include "patch/cover.h"
 #include "patch/forest.h"
 #include "patch/mosaic_job.h"
+#include "patch/spare.h"
 #include "patch/supply.h"
 
 /* What is reported at the end. */
@@ -43,6 +45,7 @@ struct otx_mosaic
     otx_cover cover;
     otx_supplies supplies;
     otx_forest forest;
+    otx_spares spares;
     otx_patch_tally tally;
 };
 

@@ -20,13 +20,11 @@ coarse_levels(const otx_exemplar *exemplar)
 
 /* Large patches carry the exemplar's structure and have few seams; beyond
  * this share of the exemplar's shorter side there is too little choice left of
- * where to take them from, the sooner where the exemplar ends. */
+ * where to take them from. */
 static double
 patch_size(const otx_exemplar *exemplar)
 {
-    const double share = exemplar->wrap_x && exemplar->wrap_y ? 0.65 : 0.5;
-
-    return share * fmin(exemplar->match.width, exemplar->match.height);
+    return 0.65 * fmin(exemplar->match.width, exemplar->match.height);
 }
 
 /* Seams do not show while they stay below the exemplar's own contrast between

@@ -22,16 +22,27 @@ otx_placing_middle(const otx_chart *chart)
     return otx_vec2_scale(1.0 / corners, sum);
 }
 
-/* Corners of the core: they must land inside an exemplar that does not tile. */
 otx_vec2 *
-otx_placing_points(const otx_chart *chart, otx_arena *scratch, int32_t *count)
+otx_placing_points(
+    const otx_mosaic *m, const otx_node *node, otx_arena *scratch,
+    int32_t *count)
 {
-    const int32_t corners = chart->first[chart->core_count];
-    otx_vec2 *points = OTX_NEW(scratch, otx_vec2, corners);
+    const otx_chart *chart = &node->chart;
+    otx_vec2 *points =
+        OTX_NEW(scratch, otx_vec2, chart->first[chart->core_count] + 1);
 
-    *count = corners;
-    for (int32_t c = 0; points && c < corners; ++c)
-        points[c] = chart->flat[chart->corners[c]];
+    *count = 0;
+    for (int32_t i = 0; points && i < chart->core_count; ++i)
+    {
+        int32_t index;
+
+        if (otx_spare_find(m, node, chart->faces[i], &index))
+            continue;
+        for (int32_t c = chart->first[i]; c < chart->first[i + 1]; ++c)
+            points[(*count)++] = chart->flat[chart->corners[c]];
+    }
+    if (points && m->spares.patch)
+        points[(*count)++] = otx_placing_middle(chart);
     return points;
 }
 

@@ -9,9 +9,12 @@
 /* The middle of a chart's core, in its plane. */
 otx_vec2 otx_placing_middle(const otx_chart *chart);
 
-/* Corners of the core, in its plane; NULL when memory is out. */
-otx_vec2 *
-otx_placing_points(const otx_chart *chart, otx_arena *scratch, int32_t *count);
+/* What of a patch must land inside the picture, in its plane: the corners of
+ * the core but of faces that neighbours could show (spare.h), and the middle.
+ * NULL when memory is out. */
+otx_vec2 *otx_placing_points(
+    const otx_mosaic *m, const otx_node *node, otx_arena *scratch,
+    int32_t *count);
 
 /* By chance, or along the guide, for a patch that has nothing to match. False
  * when it lies inside at none of the orientations that are tried.

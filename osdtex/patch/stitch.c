@@ -3,8 +3,6 @@
  * Every patch offers its whole chart, collar included; the cut chooses, and
  * the relaxation closes what is left. */
 #include "patch/stitch.h"
-#include "patch/first.h"
-#include "patch/follow.h"
 #include "patch/forest_check.h"
 #include "patch/given_patches.h"
 
@@ -13,62 +11,6 @@
 
 #include <assert.h>
 #include <stdlib.h>
-
-/* Collar faces that are squeezed or stretched more than this are not offered:
- * they would show. */
-static const double OFFER_STRETCH = 1.5;
-
-/* Weight of a squared turn against the guide, of a squared strain 1. */
-static const double TURN_COST = 0.4;
-
-static otx_vec2
-place(const otx_node *node, otx_vec2 flat)
-{
-    return otx_vec2_add(
-        otx_vec2_mul(otx_vec2_polar(node->placed.angle), flat),
-        node->placed.shift);
-}
-
-static bool
-lands_inside(const otx_exemplar *e, otx_vec2 p)
-{
-    const double w = e->match.width - 0.5, h = e->match.height - 0.5;
-
-    return (e->wrap_x || (p.x >= 0.5 && p.x <= w)) &&
-           (e->wrap_y || (p.y >= 0.5 && p.y <= h));
-}
-
-/* What a face of the chart costs in the cut: its squared strain and turn;
- * negative when it is not to be offered. */
-static float
-offer_cost(const otx_mosaic *m, const otx_node *node, int32_t i)
-{
-    const otx_supply *supply = otx_supply_of(m, node);
-    const otx_chart *chart = &node->chart;
-    const float foreign = otx_supply_cost(m, node, chart->faces[i]);
-    double s[2], turn = 0.0;
-
-    if (foreign < 0.0f || otx_given_holds(&m->job, chart->faces[i]) ||
-        (node->patch != 0 && otx_first_holds(m, chart->faces[i])))
-        return -1.0f;
-    otx_chart_face_stretch(chart, m->job.surface, m->job.texels, i, s);
-    if (i >= chart->core_count)
-    {
-        if (!(s[1] > 1.0 / OFFER_STRETCH) || s[0] > OFFER_STRETCH)
-            return -1.0f;
-        for (int32_t c = chart->first[i]; c < chart->first[i + 1]; ++c)
-            if (!lands_inside(
-                    supply->exemplar,
-                    place(node, chart->flat[chart->corners[c]])))
-                return -1.0f;
-    }
-    if (supply->guide)
-        turn = otx_follow_deviation(m, node, i);
-    s[0] = fmax(s[0], 0.1);
-    s[1] = fmax(s[1], 0.1);
-    return foreign +
-           (float)(log(s[0]) * log(s[0]) + log(s[1]) * log(s[1]) + TURN_COST * turn * turn);
-}
 
 typedef struct slot
 {
@@ -113,7 +55,7 @@ make_offer(void *context, int64_t index, otx_worker *worker)
         return OSDTEX_ERROR_MEMORY;
     for (int32_t i = 0; i < chart->face_count; ++i)
     {
-        const float c = offer_cost(m, node, i);
+        const float c = otx_spare_cost(m, node, i);
 
         if (c >= 0.0f)
             slots[count++] = (slot){chart->faces[i], i, c};
@@ -127,7 +69,7 @@ make_offer(void *context, int64_t index, otx_worker *worker)
         cost[k] = slots[k].cost;
         first[k] = n;
         for (int32_t c = chart->first[i]; c < chart->first[i + 1]; ++c)
-            uvs[n++] = place(node, chart->flat[chart->corners[c]]);
+            uvs[n++] = otx_spare_place(m, node, chart->flat[chart->corners[c]]);
     }
     first[count] = n;
     o->offers[patch] =

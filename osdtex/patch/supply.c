@@ -59,6 +59,24 @@ match_picture(otx_mosaic *m, int32_t k, otx_image *out, double *sigma)
         m->supplies.edge_unit, out);
 }
 
+static int32_t
+cell_of(double x, int32_t size)
+{
+    const double share = x / size;
+    const int32_t cell = (int32_t)((share - floor(share)) * OTX_USAGE_CELLS);
+
+    return cell < OTX_USAGE_CELLS ? cell : OTX_USAGE_CELLS - 1;
+}
+
+int32_t
+otx_supply_cell(const otx_supply *supply, otx_vec2 at)
+{
+    const otx_image *match = &supply->exemplar->match;
+
+    return cell_of(at.y, match->height) * OTX_USAGE_CELLS +
+           cell_of(at.x, match->width);
+}
+
 /* As if what is not to be shown again had been used a lot, and all else here
  * and there. */
 static void
@@ -66,22 +84,15 @@ use_up(const otx_mosaic *m, int32_t k, float *usage)
 {
     const otx_patch_given *given = m->job.given;
     const otx_level *leaf = m->job.leaves.level;
-    const otx_image *match = &m->supplies.items[k].exemplar->match;
 
     for (int32_t i = 0; i < OTX_USAGE_CELLS * OTX_USAGE_CELLS; ++i)
         usage[i] =
             (float)(USED_AT_RANDOM * otx_random_unit(m->job.run->seed, STAGE_AVOID, (uint64_t)i));
     for (int32_t f = 0; f < leaf->face_count; ++f)
-    {
-        const otx_vec2 at = given->uvs[leaf->face_first[f]];
-        const double u = at.x / match->width, v = at.y / match->height;
-        const int32_t x = (int32_t)((u - floor(u)) * OTX_USAGE_CELLS);
-        const int32_t y = (int32_t)((v - floor(v)) * OTX_USAGE_CELLS);
-
-        if (given->face_patch[f] < 0 && x < OTX_USAGE_CELLS &&
-            y < OTX_USAGE_CELLS)
-            usage[y * OTX_USAGE_CELLS + x] = (float)USED_BEFORE;
-    }
+        if (given->face_patch[f] < 0)
+            usage[otx_supply_cell(
+                &m->supplies.items[k], given->uvs[leaf->face_first[f]])] =
+                (float)USED_BEFORE;
 }
 
 static otx_status

@@ -36,6 +36,8 @@ typedef struct otx_supplies
 
 /* The exemplars of a run, each with what it needs. */
 otx_status otx_supply_prepare(otx_mosaic *m);
+/* Cell of `usage` that a place in the exemplar, in texels, falls in. */
+int32_t otx_supply_cell(const otx_supply *supply, otx_vec2 at);
 /* Index of the one that a leaf face is asked for. */
 int32_t otx_supply_wanted(const otx_mosaic_job *job, int32_t face);
 const otx_supply *otx_supply_of(const otx_mosaic *m, const otx_node *node);

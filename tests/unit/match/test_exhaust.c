@@ -43,7 +43,8 @@ collect_pixels(void *context, const otx_mask_span *span)
     }
 }
 
-/* Mean square over the pixels, moved by (dx, dy). */
+/* Mean square over the pixels, moved by (dx, dy); beyond the rim of what does
+ * not tile is the mean, 0, which costs something besides. */
 static double
 direct_error(const pixels *p, int32_t dx, int32_t dy)
 {
@@ -51,10 +52,18 @@ direct_error(const pixels *p, int32_t dx, int32_t dy)
 
     for (int32_t n = 0; n < p->count; ++n)
     {
-        const float *t = otx_plane_at(
-            p->plane, otx_view_fold(p->x[n] + dx, p->plane->width, true),
-            otx_view_fold(p->y[n] + dy, p->plane->height, true));
+        static const float mean[OTX_PLANE_LANES] = {0};
+        const otx_plane *plane = p->plane;
+        const int32_t x = p->x[n] + dx, y = p->y[n] + dy;
+        const bool beyond = otx_plane_ends(x, plane->width, plane->wrap_x) ||
+                            otx_plane_ends(y, plane->height, plane->wrap_y);
+        const float *t =
+            beyond ? mean
+                   : otx_plane_at(
+                         plane, otx_view_fold(x, plane->width, plane->wrap_x),
+                         otx_view_fold(y, plane->height, plane->wrap_y));
 
+        sum += beyond ? plane->beyond : 0.0;
         for (int k = 0; k < 3; ++k)
             sum += (double)(p->color[n][k] - t[k]) *
                    (double)(p->color[n][k] - t[k]);
@@ -71,17 +80,19 @@ check_map(int32_t width, int32_t height, bool wrap, int32_t level, double cell)
     const otx_plane *plane = &matcher->planes[level];
     const double angles[3] = {0.0, 0.5, 2.8};
     const double bound = 1e-4 * matcher->sigma * matcher->sigma;
-    const otx_match_query query = otx_match_query_defaults(angles, 3);
+    otx_match_query query = otx_match_query_defaults(angles, 3);
     otx_exhaust_buffers buffers;
     pixels *p = OTX_NEW(run->arena, pixels, 1);
     scene_mask scene;
 
+    query.overhang = true;
     /* The source differs from every placement that is searched. */
     scene_mask_make(
         &scene, (otx_vec2){-3.0, 5.0}, cell, 1.9,
         (otx_vec2){0.5 * width, 0.4 * height});
     assert_int_equal(
-        otx_exhaust_buffers_create(run->arena, plane, &buffers), OSDTEX_OK);
+        otx_exhaust_buffers_create(run->arena, plane, &query, &buffers),
+        OSDTEX_OK);
     for (int a = 0; a < 3; ++a)
     {
         const otx_mask_frame frame = {
@@ -97,8 +108,8 @@ check_map(int32_t width, int32_t height, bool wrap, int32_t level, double cell)
             otx_exhaust_map(plane, &scene.mask, angles[a], &buffers);
 
         assert_true(fabs(sums.weight - p->count) < 1e-6);
-        for (int32_t y = 0; y < plane->height; ++y)
-            for (int32_t x = 0; x < plane->width; ++x)
+        for (int32_t y = 0; y < plane->fft_height; ++y)
+            for (int32_t x = 0; x < plane->fft_width; ++x)
             {
                 const int32_t dx = x - sums.base_x;
                 const int32_t dy = y - sums.base_y;

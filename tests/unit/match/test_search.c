@@ -187,7 +187,7 @@ gauss_newton_goes_below_the_texel(void **state)
 /* --------------------------------------------------------------- bounds */
 
 static void
-check_bounds(int32_t coarse_levels, bool gauss_newton)
+check_bounds(int32_t coarse_levels, bool gauss_newton, bool overhang)
 {
     otx_run *run = test_run_create();
     const otx_image image = scene_exemplar(run, 75, 66);
@@ -205,6 +205,7 @@ check_bounds(int32_t coarse_levels, bool gauss_newton)
     query.gauss_newton = gauss_newton;
     query.cover = cover;
     query.cover_count = 4;
+    query.overhang = overhang;
     scene_mask_make(
         &scene, (otx_vec2){-13.0, -13.0}, 4.0, 1.0, (otx_vec2){37.0, 33.0});
     assert_int_equal(
@@ -228,9 +229,12 @@ static void
 matches_stay_inside_what_does_not_tile(void **state)
 {
     (void)state;
-    check_bounds(0, false);
-    check_bounds(1, false);
-    check_bounds(1, true);
+    for (int overhang = 0; overhang < 2; ++overhang)
+    {
+        check_bounds(0, false, overhang);
+        check_bounds(1, false, overhang);
+        check_bounds(1, true, overhang);
+    }
 }
 
 static void
@@ -252,6 +256,43 @@ what_does_not_fit_gives_no_match(void **state)
         otx_matcher_search(run, matcher, &scene.mask, &query, &best, 1, &count),
         OSDTEX_OK);
     assert_int_equal(count, 0);
+    test_run_destroy(run);
+}
+
+/* A mask may reach over the rim where the patch does not. */
+static void
+what_reaches_over_the_rim_is_a_match(void **state)
+{
+    otx_run *run = test_run_create();
+    const otx_image image = scene_exemplar(run, 64, 64);
+    otx_matcher *matcher = scene_matcher(run, &image, false);
+    const double angle = 0.0;
+    otx_match_query query = otx_match_query_defaults(&angle, 1);
+    otx_match best;
+    scene_mask scene;
+    int32_t count;
+
+    (void)state;
+    /* 18 texels wide, of which 6 lie beyond the left rim. */
+    scene_mask_make(
+        &scene, (otx_vec2){0.0, 0.0}, 3.0, 0.0, (otx_vec2){-6.0, 20.0});
+    for (int32_t level = 0; level < 2; ++level)
+    {
+        query.coarse_levels = level;
+        query.overhang = false;
+        assert_int_equal(
+            otx_matcher_search(
+                run, matcher, &scene.mask, &query, &best, 1, &count),
+            OSDTEX_OK);
+        assert_true(count == 0 || best.shift.x >= 0.0);
+        query.overhang = true;
+        assert_int_equal(
+            otx_matcher_search(
+                run, matcher, &scene.mask, &query, &best, 1, &count),
+            OSDTEX_OK);
+        assert_int_equal(count, 1);
+        assert_true(best.shift.x == -6.0 && best.shift.y == 20.0);
+    }
     test_run_destroy(run);
 }
 
@@ -388,6 +429,7 @@ main(void)
         cmocka_unit_test(gauss_newton_goes_below_the_texel),
         cmocka_unit_test(matches_stay_inside_what_does_not_tile),
         cmocka_unit_test(what_does_not_fit_gives_no_match),
+        cmocka_unit_test(what_reaches_over_the_rim_is_a_match),
         cmocka_unit_test(one_triangle_is_enough),
         cmocka_unit_test(usage_moves_the_match),
         cmocka_unit_test(threads_do_not_change_a_bit),

@@ -580,6 +580,19 @@ failing_any_allocation_leaves_nothing(void **state)
     }
 }
 
+/* Patches of what does not tile reach its rim. */
+static void
+the_whole_of_what_does_not_tile_is_shown(void **state)
+{
+    job *j = make_job("sphere", 4, 12.0, false);
+
+    (void)state;
+    assert_int_equal(map(j), OSDTEX_OK);
+    check_mapping(j);
+    assert_true(measure(j).coverage > 0.7);
+    test_run_destroy(j->run);
+}
+
 int
 main(void)
 {
@@ -599,6 +612,7 @@ main(void)
         cmocka_unit_test(relaxing_and_choosing_lower_the_seams),
         cmocka_unit_test(cancelling_at_any_call_leaves_nothing),
         cmocka_unit_test(failing_any_allocation_leaves_nothing),
+        cmocka_unit_test(the_whole_of_what_does_not_tile_is_shown),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
