@@ -7,9 +7,7 @@
 #ifndef OTX_PATCH_SPARE_H
 #define OTX_PATCH_SPARE_H
 
-#include "patch/mosaic_job.h"
-
-typedef struct otx_node otx_node;
+#include "patch/forest.h"
 
 typedef struct otx_spares
 {
