@@ -7,6 +7,7 @@
 #include "analysis/analysis.h"
 
 #include "analysis/grain.h"
+#include "analysis/gravity.h"
 #include "analysis/lattice.h"
 
 #include <string.h>
@@ -141,11 +142,13 @@ measure(const otx_square *s, otx_analysis *out)
     otx_lags map = {.reach = (int32_t)(LAG_SHARE * s->side)};
     otx_lags_correlator c;
     otx_lattice lattice;
+    otx_gravity gravity;
     otx_grain grain;
     double ridge, likeness;
     otx_vec2 unused;
 
     OTX_TRY(otx_grain_measure(s, &grain));
+    OTX_TRY(otx_gravity_measure(s, &gravity));
     OTX_TRY(otx_lags_prepare(s, &c));
     OTX_TRY(otx_lags_likeness(s, &c, s->f, s->f, &map));
     otx_lattice_find(&map, &lattice);
@@ -155,6 +158,7 @@ measure(const otx_square *s, otx_analysis *out)
     if (grain.coherence >= COHERENCE &&
         !is_lattice(lattice.regularity, lattice.contrast))
         OTX_TRY(look_along(s, &c, &map, grain.angle, &lattice));
+    out->upright = gravity.upright;
     out->angle = grain.angle;
     out->coherence = grain.coherence;
     out->skew = grain.skew;
@@ -205,6 +209,7 @@ otx_analysis_force_lattice(
     OTX_TRY(otx_analysis_run(run, lab, false, false, out));
     otx_lattice_order(g);
     out->kind = OTX_ANALYSIS_LATTICE;
+    out->upright = false;
     out->generators[0] = g[0];
     out->generators[1] = g[1];
     out->symmetry = out->half_turn >= TURN_LIKENESS ? 2 : 1;

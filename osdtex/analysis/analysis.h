@@ -33,6 +33,7 @@ typedef struct otx_analysis
                    * a direction field stands for; 0 for isotropic ones */
     otx_vec2 generators[2]; /* texels, the first the more horizontal, the pair
                              * counter-clockwise; of lattices, else zero */
+    bool upright;           /* it has a top, along y: masonry, text, shingles */
     otx_vec2 centre; /* texel about which half a turn fits best; of lattices */
 
     /* What was measured; see analysis.c for the thresholds. */

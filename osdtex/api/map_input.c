@@ -23,6 +23,7 @@ read_follow(otx_run *run, const char *text, otx_constraint_set *set)
     double v[3];
     int count = 0;
 
+    set->follows = true;
     set->axis = (otx_vec3){0, 1, 0};
     set->follow = strcmp(text, "up") == 0          ? OTX_FOLLOW_AXIS
                   : strcmp(text, "edges") == 0     ? OTX_FOLLOW_EDGES
@@ -80,7 +81,10 @@ take_file(
     if (file.follow && strcmp(file.follow, "axis") != 0)
         return read_follow(run, file.follow, set);
     if (file.follow)
+    {
         set->follow = OTX_FOLLOW_AXIS;
+        set->follows = true;
+    }
     set->axis = vector(file.axis);
     return OSDTEX_OK;
 }
@@ -282,5 +286,6 @@ otx_map_input_analysis(
     else if (a->symmetry == 0)
         a->symmetry = 1;
     a->kind = kind;
+    a->upright = false; /* it was said what it is */
     return OSDTEX_OK;
 }

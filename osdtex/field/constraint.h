@@ -55,6 +55,7 @@ typedef struct otx_constraint_set
     const char *path; /* for messages; NULL none */
     int32_t symmetry; /* 1, 2, 4; 0: the exemplar's */
     otx_follow follow;
+    bool follows;         /* it was said what to follow, if only smoothness */
     otx_vec3 axis;        /* of OTX_FOLLOW_AXIS */
     double follow_length; /* over which it gives way, scene units; 0: a
                            * twentieth of the diagonal */

@@ -6,6 +6,44 @@
 #include "method/hierarchical/first_direction.h"
 #include "method/hierarchical/settings.h"
 
+/* Whether it is left open how the exemplar is to lie. */
+static bool
+is_open(const otx_map_request *request)
+{
+    const otx_constraint_set *set = request->constraints;
+
+    if (request->first_face >= 0)
+        return false;
+    for (int32_t i = 0; set && i < set->count; ++i)
+        if (set->items[i].has_direction)
+            return false;
+    return !set || !(set->follows || set->follow != OTX_FOLLOW_NOTHING ||
+                     set->symmetry > 0 || set->field.directions);
+}
+
+/* Of a picture with a top: its top goes up the scene, as an arrow. */
+static otx_status
+stand_upright(
+    const otx_job *job, otx_analysis *a, const otx_constraint_set **out)
+{
+    otx_constraint_set *set = OTX_ZNEW(job->run->arena, otx_constraint_set, 1);
+
+    OTX_TRY(otx_run_ok(job->run));
+    if (job->request->constraints)
+        *set = *job->request->constraints;
+    set->follow = OTX_FOLLOW_AXIS;
+    set->axis = (otx_vec3){0, 1, 0};
+    a->angle = 0.5 * OTX_PI;
+    a->symmetry = 1;
+    *out = set;
+    otx_note(
+        job->run, OSDTEX_SEVERITY_INFO, "map", OTX_NOWHERE,
+        "the exemplar has a top, as its rows or its light tell: it is laid "
+        "upright, along y; {follow} smooth or an axis and {exemplar-class} say "
+        "otherwise");
+    return OSDTEX_OK;
+}
+
 /* A field for patches to follow, where exemplar k has a direction.
  *
  *   known  what the exemplar is taken for; NULL: it is analysed
@@ -25,6 +63,11 @@ make_guide(
     else
         OTX_TRY(otx_exemplar_analysis(run, exemplar, &a));
     *kind = otx_analysis_name(a.kind);
+    if (a.upright && is_open(job->request))
+    {
+        OTX_TRY(stand_upright(job, &a, &constraints));
+        return otx_guide_make(run, surface, &a, constraints, guide);
+    }
     if (a.kind == OTX_ANALYSIS_ISOTROPIC)
         return OSDTEX_OK;
     otx_note(
