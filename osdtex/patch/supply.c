@@ -11,13 +11,15 @@
 
 enum
 {
-    STAGE_AVOID = 0x41564F49 /* of random numbers */
+    STAGE_AVOID = 0x41564F49, /* of random numbers */
+    AVOID_BLOCK = 4 /* cells a side that one is drawn for: patches see the
+                     * mean of many cells */
 };
 
 /* Usage of what faces showed that are to show something else, and the largest
  * of all the rest: 1 is an even share of the surface. */
-static const double USED_BEFORE = 8.0;
-static const double USED_AT_RANDOM = 4.0;
+static const double USED_BEFORE = 16.0;
+static const double USED_AT_RANDOM = 16.0;
 
 /* The area that asks for each, of the leaves that are no holes. */
 static void
@@ -86,8 +88,15 @@ use_up(const otx_mosaic *m, int32_t k, float *usage)
     const otx_level *leaf = m->job.leaves.level;
 
     for (int32_t i = 0; i < OTX_USAGE_CELLS * OTX_USAGE_CELLS; ++i)
-        usage[i] =
-            (float)(USED_AT_RANDOM * otx_random_unit(m->job.run->seed, STAGE_AVOID, (uint64_t)i));
+    {
+        const int32_t block =
+            i / OTX_USAGE_CELLS / AVOID_BLOCK * OTX_USAGE_CELLS +
+            i % OTX_USAGE_CELLS / AVOID_BLOCK;
+        const double chance =
+            otx_random_unit(m->job.run->seed, STAGE_AVOID, (uint64_t)block);
+
+        usage[i] = (float)(USED_AT_RANDOM * chance * chance);
+    }
     for (int32_t f = 0; f < leaf->face_count; ++f)
         if (given->face_patch[f] < 0)
             usage[otx_supply_cell(
