@@ -1,6 +1,7 @@
 /* keep_call.c -- a mapping made from one that is to be kept. */
 #include "api/keep_call.h"
 
+#include "api/call.h"
 #include "api/edit_call.h"
 #include "api/saved_about.h"
 #include "edit/keep.h"
@@ -168,6 +169,9 @@ otx_keep_call_run(
         status = otx_keep_run(&what, &handle->mapping, &tally);
     otx_arena_destroy(aside.arena);
     OTX_TRY(status);
+    /* What is placed over the mapping is not copied, and lives with it. */
+    if (handle->mapping.decals)
+        OTX_TRY(otx_call_hold(run, keep->arena));
     otx_figures_stage(&handle->figures, NULL);
     report(&tally, &handle->figures);
     otx_note(
