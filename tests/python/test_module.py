@@ -7,6 +7,7 @@ memory, callbacks, exceptions, threads, and nothing left behind.
 
 import doctest
 import gc
+import json
 import os
 import re
 import shutil
@@ -125,6 +126,127 @@ class SameBytes(ModuleTest):
         names = {p.name for p in there.iterdir()}
         self.assertIn("out_uv.1001.exr", names)
         self.compare(there)
+
+
+class Edits(ModuleTest):
+    """Edits of the program, and the same through the module."""
+    HOW = {"level": 2, "scale": 1.5, "exemplar_class": "directional"}
+    COMB = {"face": 3, "direction": [0, 1, 0.2], "reach": 0.4}
+
+    def program_edit(self, source, path, *words):
+        self.assert_exit(self.run_program(
+            "edit", source, "-o", path, "--replace", *words), 0)
+        return path.read_bytes()
+
+    def module_edit(self, source, path, **options):
+        edited = self.context.read_mapping(source).edit(**options)
+        with self.context.outputs(source=TORUS):
+            edited.save(path)
+        return path.read_bytes()
+
+    def test_the_same_bytes(self):
+        mapping = self.context.map(*self.read(TORUS), **self.HOW)
+        source = self.folder / "m.osdtex"
+        mapping.save(source)
+        asked = self.folder / "c.json"
+        asked.write_text(json.dumps({"constraints": [self.COMB]}))
+        both = self.folder / "both.json"
+        both.write_text(json.dumps({"constraints": [
+            {**self.COMB, "edit": 1}, {"face": 9, "redo": 2, "edit": 2,
+                                       "reach": 0.2}]}))
+        path = self.folder / "n.osdtex"
+        x, y, z = mapping.points[mapping.face_verts[0]].tolist()
+        for words, options in (
+                (("--redo", "9"), {"redo": 9}),
+                (("--redo", "9", "--seed", "2", "--reach", "0.2"),
+                 {"redo": 9, "seed": 2, "reach": 0.2}),
+                (("--redo", f"{x},{y},{z},0.1", "--reach", "0.2"),
+                 {"redo": (x, y, z, 0.1), "reach": 0.2}),
+                (("--constraints", asked), {"constraints": asked}),
+                (("--constraints", asked), {"constraints": [self.COMB]}),
+                (("--constraints", both), {"constraints": (
+                    {**self.COMB, "edit": 1},
+                    {"face": 9, "redo": 2, "edit": 2, "reach": 0.2})})):
+            with self.subTest(words):
+                self.assertEqual(
+                    self.program_edit(source, path, *words),
+                    self.module_edit(source, path, **options))
+        # One after the other, in memory; and map() with all of it at once.
+        edited = mapping.edit([self.COMB]).edit(redo=9, seed=2, reach=0.2)
+        self.assertTrue(
+            (edited.uvs == self.context.read_mapping(path).uvs).all())
+        self.assertFalse((edited.uvs == mapping.uvs).all())
+        at_once = self.context.map(*self.read(TORUS), **self.HOW, constraints=[
+            {**self.COMB, "edit": 1},
+            {"face": 9, "redo": 2, "edit": 2, "reach": 0.2}])
+        self.assertTrue((edited.uvs == at_once.uvs).all())
+
+    def test_what_is_wrong(self):
+        mapping = self.context.map(*self.read(), **QUICK)
+        for options, error, words in (
+                ({}, osdtex.ArgumentError, "changes nothing"),
+                ({"redo": -1}, ValueError, "a face of the cage"),
+                ({"redo": 1, "seed": 0}, ValueError, "from 1"),
+                ({"redo": [1, 2]}, ValueError, "4 numbers"),
+                ({"redo": "1"}, ValueError, "4 numbers"),
+                ({"redo": 99999}, osdtex.ArgumentError, "cage lacks"),
+                ({"reach": "far"}, TypeError, ""),
+                ({"constraints": [7]}, TypeError, "list of dictionaries"),
+                ({"constraints": {"face": 1}}, TypeError, ""),
+                ({"constraints": [{"fase": 1}]}, TypeError, "face, point"),
+                ({"constraints": [{"face": 1, "material": "x"}]}, TypeError,
+                 ""),
+                ({"constraints": self.folder / "no.json"}, osdtex.FileError,
+                 "no.json")):
+            with self.subTest(options):
+                with self.assertRaisesRegex(error, words):
+                    mapping.edit(**options)
+        for options in ({"keep": 7}, {"place": 7}):
+            with self.assertRaises(TypeError):
+                self.context.map(*self.read(), **QUICK, **options)
+
+    def test_keep(self):
+        cage, exemplar = self.read()
+        mapping = self.context.map(cage, exemplar, **QUICK)
+        kept = self.context.map(cage, exemplar, keep=mapping)
+        self.assertTrue((kept.uvs == mapping.uvs).all())
+
+
+class Seams(ModuleTest):
+    def test_they_lie_between_patches(self):
+        mapping = self.context.map(*self.read(), level=2)
+        seams = mapping.seams(places=4)
+        patch = mapping.face_patch
+        face = numpy.searchsorted(
+            mapping.face_first, seams.corners, side="right") - 1
+        edges = {}
+        for f in range(mapping.face_count):
+            verts = mapping.face_verts[
+                mapping.face_first[f]:mapping.face_first[f + 1]].tolist()
+            for a, b in zip(verts, verts[1:] + verts[:1]):
+                edges[a, b] = f
+        for corner, f in zip(seams.corners, face):
+            first, end = mapping.face_first[f], mapping.face_first[f + 1]
+            a = mapping.face_verts[corner]
+            b = mapping.face_verts[corner + 1 if corner + 1 < end else first]
+            self.assertNotEqual(patch[edges[b, a]], patch[f])
+        meet = {frozenset(e) for e, f in edges.items()
+                if patch[edges.get(e[::-1], f)] != patch[f]}
+        self.assertEqual(len(seams.corners), len(meet))
+        self.assertTrue((seams.differences >= 0).all())
+        self.assertTrue((seams.differences <= 1).all())
+        self.assertEqual(len(seams.places), 4)
+        worst = seams.places[0]
+        self.assertEqual(
+            set(worst), {"point", "normal", "length", "difference"})
+        self.assertAlmostEqual(
+            numpy.linalg.norm(worst["normal"]), 1, places=6)
+        corners = seams.corners
+        del mapping, seams
+        gc.collect()
+        self.assertGreater(len(corners), 10)  # it keeps what it lies on
+        with self.assertRaises(osdtex.ArgumentError):
+            self.context.map(*self.read(), **QUICK).seams(places=100)
 
 
 class Arrays(ModuleTest):

@@ -29,6 +29,7 @@ typedef enum opy_type
     OPY_EXEMPLAR,
     OPY_MAPPING,
     OPY_TEXTURES,
+    OPY_SEAMS,
     OPY_LENT,
     OPY_TYPES
 } opy_type;
@@ -111,6 +112,7 @@ extern PyType_Spec opy_cage_spec;
 extern PyType_Spec opy_exemplar_spec;
 extern PyType_Spec opy_mapping_spec;
 extern PyType_Spec opy_textures_spec;
+extern PyType_Spec opy_seams_spec;
 extern PyType_Spec opy_lent_spec;
 
 /* Methods of the context that make handles. */
@@ -127,6 +129,8 @@ const char *opy_comment(PyObject *keep);
 PyObject *opy_textures(PyObject *self, PyObject *args, PyObject *kwargs);
 PyObject *opy_bake(PyObject *self, PyObject *args, PyObject *kwargs);
 PyObject *opy_render(PyObject *self, PyObject *args, PyObject *kwargs);
+PyObject *opy_edit(PyObject *self, PyObject *args, PyObject *kwargs);
+PyObject *opy_seams(PyObject *self, PyObject *args, PyObject *kwargs);
 
 /* For handles. */
 void opy_handle_dealloc(PyObject *self);

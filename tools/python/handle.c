@@ -31,6 +31,9 @@ destroy(opy_type type, void *handle)
     case OPY_TEXTURES:
         osdtex_textures_destroy(handle);
         return;
+    case OPY_SEAMS:
+        osdtex_seams_destroy(handle);
+        return;
     default:
         return;
     }
@@ -66,8 +69,9 @@ opy_handle_new(opy_context *c, opy_type type, void *handle, const void *info)
 opy_handle *
 opy_handle_of(opy_state *state, PyObject *object, opy_type type)
 {
-    static const char *const names[] = {
-        "a Context", "a Cage", "an Exemplar", "a Mapping", "Textures", ""};
+    static const char *const names[] = {"a Context", "a Cage",   "an Exemplar",
+                                        "a Mapping", "Textures", "Seams",
+                                        ""};
 
     if (PyObject_TypeCheck(object, (PyTypeObject *)state->types[type]))
         return (opy_handle *)object;

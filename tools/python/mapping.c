@@ -26,6 +26,7 @@ static const opy_option MAP_OPTIONS[] = {
     {"generators", OPY_REALS, MAP(generators), NULL},
     {"mask", OPY_PATH, MAP(mask), NULL},
     {"along", OPY_TEXT, MAP(along), NULL},
+    {"place", OPY_PATH, MAP(place), NULL},
     {"first_face", OPY_INT, MAP(first_face), NULL},
     {"first_u", OPY_REAL, MAP(first_u), NULL},
     {"first_v", OPY_REAL, MAP(first_v), NULL},
@@ -42,6 +43,7 @@ static const opy_option READ_OPTIONS[] = {
     {"textures", OPY_CHOICE, READ(texture_type), TEXTURES},
     {"maps", OPY_MAPS, READ(maps), MAPS},
     {"heal", OPY_HEAL, READ(heal), NULL},
+    {"place", OPY_PATH, READ(place), NULL},
     {NULL, 0, 0, NULL}};
 
 #define WRITE(field) offsetof(osdtex_write_options, field)
@@ -112,6 +114,25 @@ take_also(
     return !PyErr_Occurred() && PyDict_DelItemString(kwargs, "also") == 0;
 }
 
+/* The option `keep`, taken out of the keywords; the caller's hold it. */
+static bool
+take_keep(opy_state *state, PyObject *kwargs, osdtex_map_options *out)
+{
+    PyObject *given = PyDict_GetItemString(kwargs, "keep");
+    opy_handle *handle;
+
+    if (!given)
+        return true;
+    if (given != Py_None)
+    {
+        handle = opy_handle_of(state, given, OPY_MAPPING);
+        if (!handle)
+            return false;
+        out->keep = handle->handle;
+    }
+    return PyDict_DelItemString(kwargs, "keep") == 0;
+}
+
 static PyObject *
 map(opy_context *c, PyObject *args, PyObject *words, PyObject *keep)
 {
@@ -125,6 +146,10 @@ map(opy_context *c, PyObject *args, PyObject *words, PyObject *keep)
         !(cage = opy_handle_of(c->state, given[0], OPY_CAGE)) ||
         !(exemplar = opy_handle_of(c->state, given[1], OPY_EXEMPLAR)) ||
         !take_also(c->state, words, keep, &options) ||
+        !take_keep(c->state, words, &options) ||
+        !opy_take_constraints(
+            words, keep, &options.constraint_items,
+            &options.constraint_count) ||
         !opy_options_read(MAP_OPTIONS, words, &options, keep) || !opy_enter(c))
         return NULL;
     status = osdtex_map(
@@ -342,6 +367,10 @@ static PyMethodDef METHODS[] = {
     {"write", (PyCFunction)(void (*)(void))mapping_write,
      METH_VARARGS | METH_KEYWORDS, "Writes NAME.obj with its MTL and EXR."},
     {"save", mapping_save, METH_O, "Saves NAME.osdtex, to be read again."},
+    {"edit", (PyCFunction)(void (*)(void))opy_edit,
+     METH_VARARGS | METH_KEYWORDS, "Another one, changed in a part."},
+    {"seams", (PyCFunction)(void (*)(void))opy_seams,
+     METH_VARARGS | METH_KEYWORDS, "Where patches meet, and that shows."},
     {"report", (PyCFunction)(void (*)(void))mapping_report,
      METH_VARARGS | METH_KEYWORDS, "How good it is, as a dictionary."},
     {"bake", (PyCFunction)(void (*)(void))opy_bake,

@@ -80,7 +80,8 @@ add_types(PyObject *module, opy_state *state)
 {
     static PyType_Spec *const specs[OPY_TYPES] = {
         &opy_context_spec, &opy_cage_spec,     &opy_exemplar_spec,
-        &opy_mapping_spec, &opy_textures_spec, &opy_lent_spec};
+        &opy_mapping_spec, &opy_textures_spec, &opy_seams_spec,
+        &opy_lent_spec};
 
     for (int i = 0; i < OPY_TYPES; ++i)
     {

@@ -48,6 +48,13 @@ typedef struct opy_option
 bool opy_options_read(
     const opy_option *table, PyObject *kwargs, void *out, PyObject *keep);
 
+/* The option `constraints` where it is a list of dictionaries, taken out of the
+ * keywords; a path stays. What they point to lives in the list. False and
+ * TypeError or ValueError. */
+bool opy_take_constraints(
+    PyObject *words, PyObject *keep, const osdtex_constraint **items,
+    int32_t *count);
+
 /* The bytes of a path in the file system's encoding, kept in a list. */
 const char *opy_path_of(PyObject *path, PyObject *keep);
 

@@ -45,7 +45,7 @@ setup(
     ext_modules=[Extension(
         "osdtex._osdtex",
         [f"{name}.c" for name in (
-            "module", "context", "handle", "inputs", "mapping", "options",
+            "module", "context", "edit", "handle", "inputs", "mapping", "options",
             "textures")],
         depends=["binding.h", "options.h"],
         extra_compile_args=["-std=c17", *shlex.split(ask("--cflags"))],

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const UVS[] = {"auto", "own", "atlas", NULL};
+static const char *const UVS[] = {"auto", "own", "atlas", "charts", NULL};
 static const char *const EXTRAS[] = {
     "patch", "uv", "stretch", "seam", "source", "slice", NULL};
 static const char *const AXES[] = {"y", "z", NULL};

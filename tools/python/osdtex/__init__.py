@@ -16,7 +16,8 @@ import contextlib
 import numpy
 
 from . import _osdtex
-from ._osdtex import Cage, Exemplar, Mapping, Textures, build, methods, version
+from ._osdtex import (
+    Cage, Exemplar, Mapping, Seams, Textures, build, methods, version)
 from .errors import (
     ArgumentError, Cancelled, ColourError, Error, FileError, Finding,
     FormatError, InternalError, LimitError, NumericError, OutOfMemory,
@@ -26,8 +27,8 @@ __version__ = version()
 __all__ = [
     "ArgumentError", "Cage", "Cancelled", "ColourError", "Context", "Error",
     "Exemplar", "FileError", "Finding", "FormatError", "InternalError",
-    "LimitError", "Mapping", "NumericError", "OutOfMemory", "SupportError",
-    "Textures", "TopologyError", "build", "methods", "version"]
+    "LimitError", "Mapping", "NumericError", "OutOfMemory", "Seams",
+    "SupportError", "Textures", "TopologyError", "build", "methods", "version"]
 
 
 def _flatten(faces):

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from . import _osdtex
 from ._osdtex import (
     Cage as Cage, Exemplar as Exemplar, Mapping as Mapping,
-    Textures as Textures, build as build, methods as methods,
+    Seams as Seams, Textures as Textures, build as build, methods as methods,
     version as version)
 from .errors import (
     ArgumentError as ArgumentError, Cancelled as Cancelled,

@@ -11,6 +11,8 @@ from .errors import Finding
 Path = Union[str, bytes, os.PathLike[str]]
 Floats = NDArray[numpy.float32]
 Indices = NDArray[numpy.int32]
+Constraint = Dictionary[str, Any]
+Constraints = Union[Path, Sequence[Constraint]]
 Also = Union[Exemplar, Tuple[Exemplar, Optional[str]],
              Tuple[Exemplar, Optional[str], float]]
 
@@ -53,12 +55,14 @@ class Context:
         level: Union[int, str] = ..., scale: float = ...,
         method: Optional[str] = ...,
         settings: Optional[Dictionary[str, object]] = ..., seed: int = ...,
-        heal: Union[float, str] = ..., constraints: Optional[Path] = ...,
+        heal: Union[float, str] = ...,
+        constraints: Optional[Constraints] = ...,
         follow: Optional[str] = ..., exemplar_class: Optional[str] = ...,
         generators: Optional[Sequence[float]] = ...,
         mask: Optional[Path] = ..., along: Optional[str] = ...,
         first_face: int = ..., first_u: float = ..., first_v: float = ...,
-        first_angle: float = ..., also: Optional[Sequence[Also]] = ...
+        first_angle: float = ..., place: Optional[Path] = ...,
+        keep: Optional[Mapping] = ..., also: Optional[Sequence[Also]] = ...
     ) -> Mapping: ...
     def read_mapping(
         self, path: Path, *, cage: Optional[Path] = ...,
@@ -66,7 +70,8 @@ class Context:
         to_space: Optional[str] = ..., receiver: str = ...,
         textures: str = ...,
         maps: Optional[Dictionary[str, Path]] = ...,
-        heal: Union[float, str] = ...) -> Mapping: ...
+        heal: Union[float, str] = ...,
+        place: Optional[Path] = ...) -> Mapping: ...
     def cancel(self) -> None: ...
     def clear(self) -> None: ...
     def close(self) -> None: ...
@@ -119,6 +124,11 @@ class Mapping:
         self, path: Path, *, normals: bool = ..., without_image: bool = ...,
         resolution: int = ...) -> None: ...
     def save(self, path: Path) -> None: ...
+    def edit(
+        self, constraints: Optional[Constraints] = ..., *,
+        redo: Union[None, int, Sequence[float]] = ..., seed: int = ...,
+        reach: float = ...) -> Mapping: ...
+    def seams(self, *, places: int = ...) -> Seams: ...
     def report(self, *, windows: int = ...) -> Dict[str, Any]: ...
     def bake(
         self, path: Path, *, resolution: int = ..., uvs: str = ...,
@@ -136,6 +146,11 @@ class Mapping:
         eye: Sequence[float] = ..., target: Sequence[float] = ...,
         fov: float = ..., unlit: bool = ..., transparent: bool = ...,
         plain: bool = ..., displace: bool = ...) -> Floats: ...
+
+class Seams:
+    corners: Indices
+    differences: Floats
+    places: List[Dict[str, Any]]
 
 class Textures:
     names: Tuple[str, ...]
