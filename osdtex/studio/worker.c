@@ -11,6 +11,11 @@
 #include <time.h>
 #include <unistd.h>
 
+enum
+{
+    ASIDE_BYTES = OTX_STUDIO_PATH_BYTES + 32
+};
+
 static double
 now(void)
 {
@@ -104,16 +109,35 @@ solve_field(
     return osdtex_field_create(w->context, w->surface, &options, out);
 }
 
-/* The options of a recipe, its exemplar and surface. */
+/* A file of its own for what is worked with: the one that is told of may hold a
+ * newer recipe by the time it is read. To be removed.
+ *
+ *   name  what it is for */
+static bool
+write_aside(
+    const otx_studio_worker *w, const json_t *constraints, const char *name,
+    char path[ASIDE_BYTES])
+{
+    snprintf(
+        path, ASIDE_BYTES, "%s.%s%ld.json",
+        w->desk->options->files->constraints, name, (long)getpid());
+    return otx_recipe_write(constraints, path);
+}
+
+/* The options of a recipe, its exemplar and surface.
+ *
+ *   path  a file with its constraints */
 static osdtex_status
-prepare(otx_studio_worker *w, const json_t *recipe, osdtex_map_options *map)
+prepare(
+    otx_studio_worker *w, const json_t *recipe, const char *path,
+    osdtex_map_options *map)
 {
     const int index = otx_recipe_exemplar(recipe);
     osdtex_status status = read_exemplar(w, index);
 
     *map = w->desk->options->map;
     otx_recipe_apply(recipe, map);
-    map->constraints = w->desk->options->files->constraints;
+    map->constraints = path;
     if (status == OSDTEX_OK)
         status = refine(w, index, map);
     map->surface = w->surface;
@@ -128,15 +152,12 @@ edit_base(
     osdtex_mapping **out)
 {
     osdtex_edit_options options = osdtex_edit_options_default();
-    char path[OTX_STUDIO_PATH_BYTES + 32];
+    char path[ASIDE_BYTES];
     json_t *file = json_pack("{s:O}", "constraints", rest);
     osdtex_status status = OSDTEX_ERROR_IO;
 
-    snprintf(
-        path, sizeof path, "%s.edit%ld.json",
-        w->desk->options->files->constraints, (long)getpid());
     options.constraints = path;
-    if (file && otx_recipe_write(file, path))
+    if (file && write_aside(w, file, "edit", path))
         status = osdtex_mapping_edit(w->context, base->mapping, &options, out);
     json_decref(file);
     unlink(path);
@@ -183,14 +204,34 @@ wrap_up(
     return OSDTEX_OK;
 }
 
+/* A new outcome of a recipe, whose constraints are in a file. */
+static osdtex_status
+make_outcome(
+    otx_studio_worker *w, const json_t *recipe, const char *path,
+    otx_outcome **out, bool *is_edit)
+{
+    osdtex_mapping *mapping = NULL;
+    osdtex_map_options map;
+    osdtex_status status = prepare(w, recipe, path, &map);
+
+    if (status == OSDTEX_OK)
+        status = edit_recipe(w, recipe, &mapping);
+    *is_edit = mapping != NULL;
+    if (status == OSDTEX_OK && !mapping)
+        status = osdtex_map(
+            w->context, w->desk->options->cage,
+            w->exemplars[w->surface_exemplar], &map, &mapping);
+    return status == OSDTEX_OK ? wrap_up(w, &map, mapping, out) : status;
+}
+
 /* A new outcome, or one from the shelf; held for the caller. */
 static osdtex_status
 map_recipe(
     otx_studio_worker *w, const json_t *recipe, otx_outcome **out,
     bool *is_edit)
 {
-    osdtex_map_options map;
-    osdtex_mapping *mapping = NULL;
+    const json_t *constraints = json_object_get(recipe, "constraints");
+    char path[ASIDE_BYTES];
     osdtex_status status;
 
     *out = otx_shelf_find(&w->shelf, recipe);
@@ -200,16 +241,10 @@ map_recipe(
         otx_outcome_hold(*out);
         return OSDTEX_OK;
     }
-    status = prepare(w, recipe, &map);
-    if (status == OSDTEX_OK)
-        status = edit_recipe(w, recipe, &mapping);
-    *is_edit = mapping != NULL;
-    if (status == OSDTEX_OK && !mapping)
-        status = osdtex_map(
-            w->context, w->desk->options->cage,
-            w->exemplars[w->surface_exemplar], &map, &mapping);
-    if (status == OSDTEX_OK)
-        status = wrap_up(w, &map, mapping, out);
+    if (!write_aside(w, constraints, "map", path))
+        return OSDTEX_ERROR_IO;
+    status = make_outcome(w, recipe, path, out, is_edit);
+    unlink(path);
     if (status == OSDTEX_OK)
         otx_shelf_put(&w->shelf, recipe, *out);
     return status;
@@ -219,15 +254,23 @@ map_recipe(
 static void
 publish(otx_studio_worker *w, otx_snapshot *made, osdtex_status status)
 {
+    const char *message = osdtex_context_error(w->context)->message;
     otx_desk *desk = w->desk;
 
     pthread_mutex_lock(&desk->lock);
     desk->work.is_busy = false;
     desk->work.stage[0] = '\0';
     desk->work.error[0] = '\0';
-    if (status != OSDTEX_OK && status != OSDTEX_ERROR_CANCELLED)
+    if (status == OSDTEX_ERROR_IO && !*message)
         otx_sentence(
-            desk->work.error, "%s", osdtex_context_error(w->context)->message);
+            desk->work.error,
+            "nothing can be written beside %s; is the disk "
+            "full?",
+            desk->options->files->constraints);
+    else if (status != OSDTEX_OK && status != OSDTEX_ERROR_CANCELLED)
+        otx_sentence(
+            desk->work.error, "%s",
+            *message ? message : "there is no memory for what was asked");
     if (made)
     {
         otx_snapshot_release(desk->snapshot);
