@@ -320,7 +320,8 @@ tell_exemplars(const otx_studio_options *options)
         const char *slash = strrchr(options->exemplars[i], '/');
 
         json_array_append_new(
-            names, json_string(slash ? slash + 1 : options->exemplars[i]));
+            names,
+            otx_sentence_json(slash ? slash + 1 : options->exemplars[i]));
     }
     return names;
 }
@@ -331,19 +332,20 @@ tell(const otx_desk *desk)
     const otx_studio_options *o = desk->options;
     const json_t *recipe = otx_past_now(&desk->past);
     char *line = otx_recipe_command(recipe, o);
-    json_t *command = line ? json_string(line) : json_null();
+    json_t *command = line ? otx_sentence_json(line) : json_null();
 
     free(line);
     return json_pack(
-        "{s:I, s:I, s:O, s:b, s:b, s:b, s:b, s:s, s:f, s:s, s:s, s:o, s:o, "
+        "{s:I, s:I, s:O, s:b, s:b, s:b, s:b, s:s, s:f, s:o, s:o, s:o, s:o, "
         "s:o}",
         "serial", (json_int_t)desk->serial, "revision",
         (json_int_t)desk->past.revision, "recipe", recipe, "can_undo",
         otx_past_has(&desk->past, -1), "can_redo", otx_past_has(&desk->past, 1),
         "busy", desk->work.is_busy, "cancelled", desk->work.is_cancelled,
         "stage", desk->work.stage, "fraction", desk->work.fraction, "error",
-        desk->work.error, "told", desk->work.told, "command", command,
-        "exemplars", tell_exemplars(o), "snapshot", tell_snapshot(desk));
+        otx_sentence_json(desk->work.error), "told",
+        otx_sentence_json(desk->work.told), "command", command, "exemplars",
+        tell_exemplars(o), "snapshot", tell_snapshot(desk));
 }
 
 char *

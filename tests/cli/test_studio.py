@@ -14,6 +14,7 @@ import struct
 import subprocess
 import time
 import unittest
+from pathlib import Path
 
 from program import CAGES, ENVIRONMENT, EXEMPLARS, PROGRAM, ProgramTest, main
 
@@ -32,7 +33,7 @@ class Studio:
         self.process = subprocess.Popen(
             [PROGRAM, "studio", *map(str, arguments), "--no-browser"],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-            env=ENVIRONMENT)
+            errors="replace", env=ENVIRONMENT)
         test.addCleanup(self.kill)
         self.address = self.process.stdout.readline().strip()
         if "was compiled without" in (self.address or self.process.stderr.read()):
@@ -281,6 +282,23 @@ class StudioTest(ProgramTest):
                 self.skipTest("this build has no studio (libmicrohttpd-dev)")
             self.assert_error(result, code, words)
         self.assertEqual(mine.read_text(), "{}")
+
+    def test_names_may_hold_any_bytes(self):
+        """What is no UTF-8 is told with marks in its place, and is read."""
+        cage = os.fsencode(self.folder / "caf") + b"\xe9.obj"
+        picture = os.fsencode(self.folder / "br") + b"\xffck.png"
+        Path(os.fsdecode(cage)).write_bytes(SPHERE.read_bytes())
+        Path(os.fsdecode(picture)).write_bytes(BRICKS.read_bytes())
+        studio = Studio(
+            self, os.fsdecode(cage), os.fsdecode(picture), "--level", "1",
+            "-o", self.folder / "out.obj", "--set", "relax=off")
+        shown = studio.shown(1)
+        self.assertEqual(shown["exemplars"], ["br?ck.png"])
+        self.assertIn("caf?.obj", shown["command"])
+        self.assertEqual(studio.end()[0], 0)
+        self.assertEqual(
+            sorted(p.suffix for p in self.folder.iterdir()),
+            [".json", ".json", ".obj", ".png"])
 
     def test_constraints_to_begin_with(self):
         given = self.folder / "given.json"
