@@ -24,9 +24,11 @@ find_spot(const otx_laying *p, const otx_place_item *item, otx_spot *out)
                            : otx_spot_nearest(p->surface, item->point);
     if (out->face < 0)
         return otx_fail(
-            p->run, OSDTEX_ERROR_ARGUMENT, STAGE, at,
-            "placed %d, '%.80s': the face is a hole", (int)item->number,
-            otx_laying_name(p, item));
+            p->run, OSDTEX_ERROR_ARGUMENT, STAGE, at, "placed %d, '%.80s': %s",
+            (int)item->number, otx_laying_name(p, item),
+            item->face >= 0 ? "the face is a hole"
+                            : "the point is too far from any face to tell "
+                              "which is the nearest");
     if (out->distance > item->width)
         otx_note(
             p->run, OSDTEX_SEVERITY_WARNING, STAGE,

@@ -55,6 +55,42 @@ class Place(ProgramTest):
         self.assertLess(placed["stretch_p95"], 1.05)
         self.assertLess(placed["offset"], 0.5)
 
+    def reddish(self, name):
+        """Share of a picture that is as red as what is placed."""
+        import numpy
+        from PIL import Image
+        pixels = numpy.asarray(
+            Image.open(self.folder / name).convert("RGB")).astype(int)
+        return ((pixels[..., 0] > 100) &
+                (pixels[..., 0] > 4 * pixels[..., 1:].max(-1))).mean()
+
+    def test_over_every_method(self):
+        """Whatever lies below, the picture is seen, and without it is not."""
+        self.need(modules=("PIL", "numpy"))
+        tiles = self.folder / "tiles.exr"
+        self.assert_exit(self.run_program(
+            "tiles", PICTURE, "-o", tiles, "--tile-size", "32"), 0)
+        below = {"tile": (tiles, "--tile-level", "1"),
+                 "material": (EXEMPLARS / "bricks_tile.png",),
+                 "vertex": (PICTURE, "--set", "levels=2", "--set", "starts=1")}
+        asked = self.ask({"picture": "red.png", "point": [0, 0, 0],
+                          "width": 1.5})
+        listed = self.run_program("methods").stdout.splitlines()
+        for method in [line.split()[0] for line in listed]:
+            picture, *more = below.get(method, (PICTURE,))
+            level = () if method == "tile" else ("--level", "1")
+            seen = []
+            for place in (("--place", asked), ()):
+                self.assert_exit(self.run_map(
+                    CAGE, picture, "--method", method, "--scale", "4", *level,
+                    *more, *place, "--preview", self.folder / "p.png",
+                    "--unlit", "--camera", "front", "--size", "96x96",
+                    "--resolution", "128", "--replace"), 0)
+                seen.append(self.reddish("p.png"))
+            with self.subTest(method, seen=seen):
+                self.assertEqual(seen[1], 0)
+                self.assertGreater(seen[0], 0.02)
+
     def test_saved_and_put_elsewhere(self):
         item = {"picture": "red.png", "face": 0, "width": 0.2}
         saved = self.folder / "it.osdtex"
@@ -75,11 +111,13 @@ class Place(ProgramTest):
         item = {"picture": "red.png", "face": 0, "width": 0.2}
         for change, words in (
                 ({"face": 999}, "there is no face 999"),
+                ({"face": None, "point": [1e300, 0, 0]}, "too far from any"),
                 ({"width": 0}, "width"),
                 ({"picture": "blue.png"}, "blue.png"),
                 ({"up": [0, 0, 0]}, "up"),
                 ({"size": 3}, "is not known")):
-            result = self.place({**item, **change})
+            result = self.place({k: v for k, v in {**item, **change}.items()
+                                 if v is not None})
             self.assertNotEqual(result.returncode, 0)
             self.assertIn(words, result.stderr)
             self.assertFalse((self.folder / "out.obj").exists())
