@@ -284,10 +284,11 @@ keep(
     c->area += area;
 }
 
-/* Keeps what is flat, and parts the rest into `next`. */
+/* Keeps what is flat, and parts the rest into `next`. What is kept has no owner
+ * any more: numbers of later rounds begin anew. */
 static otx_status
 sift(
-    cutter *c, const otx_cluster_list *work, const int32_t *owner,
+    cutter *c, const otx_cluster_list *work, int32_t *owner,
     const double *distortions, const double *extents, otx_cluster_list *next)
 {
     const otx_growing growing = {&c->dual, BEND, &c->clusters};
@@ -306,6 +307,8 @@ sift(
             cluster->face_count == 1)
         {
             keep(c, cluster, sum, area, extents);
+            for (int32_t k = 0; k < cluster->face_count; ++k)
+                owner[cluster->faces[k]] = -1;
             continue;
         }
         OTX_TRY(otx_cluster_grow(
@@ -405,6 +408,8 @@ cut(cutter *c, otx_arena *arena, otx_chart_cut *out)
     OTX_TRY(prepare(c));
     OTX_TRY(otx_extent_measure(c->run, c->surface, extents));
     OTX_TRY(begin(c, &work));
+    for (size_t f = 0; f < faces; ++f)
+        owner[f] = -1; /* and holes keep that */
     while (work.count > 0)
     {
         const otx_cluster_list swap = work;

@@ -72,6 +72,107 @@ faces_are_in_one_chart(void **state)
     }
 }
 
+/* ---- rims ---- */
+
+typedef struct rim
+{
+    otx_vec2 ends[2];
+} rim;
+
+/* Whether a face of the chart, other than f, has the edge the other way. */
+static bool
+is_inside(
+    const otx_cage *cage, const otx_chart_cut *cut, int32_t chart, int32_t a,
+    int32_t b)
+{
+    for (int32_t i = cut->first[chart]; i < cut->first[chart + 1]; ++i)
+    {
+        const int32_t f = cut->faces[i];
+        const int32_t first = cage->face_first[f];
+        const int32_t n = cage->face_first[f + 1] - first;
+
+        for (int32_t k = 0; k < n; ++k)
+            if (cage->face_verts[first + k] == b &&
+                cage->face_verts[first + (k + 1) % n] == a)
+                return true;
+    }
+    return false;
+}
+
+static int32_t
+list_rim(
+    const otx_cage *cage, const otx_chart_cut *cut, int32_t chart, rim *out)
+{
+    int32_t count = 0;
+
+    for (int32_t i = cut->first[chart]; i < cut->first[chart + 1]; ++i)
+    {
+        const int32_t first = cage->face_first[cut->faces[i]];
+        const int32_t n = cage->face_first[cut->faces[i] + 1] - first;
+
+        for (int32_t k = 0; k < n; ++k)
+        {
+            const int32_t c = first + k, d = first + (k + 1) % n;
+
+            if (!is_inside(
+                    cage, cut, chart, cage->face_verts[c], cage->face_verts[d]))
+                out[count++] = (rim){{cut->flat[c], cut->flat[d]}};
+        }
+    }
+    return count;
+}
+
+static double
+side_of(const rim *r, otx_vec2 p)
+{
+    return otx_vec2_cross(
+        otx_vec2_sub(r->ends[1], r->ends[0]), otx_vec2_sub(p, r->ends[0]));
+}
+
+static bool
+cross(const rim *a, const rim *b)
+{
+    return side_of(a, b->ends[0]) * side_of(a, b->ends[1]) < 0.0 &&
+           side_of(b, a->ends[0]) * side_of(b, a->ends[1]) < 0.0;
+}
+
+/* Whatever was parted in which round: no chart lies on itself. */
+static void
+no_rim_crosses_itself(void **state)
+{
+    static const char *const cages[] = {
+        "models/cages/jack.obj",         "models/cages/hole.obj",
+        "models/cages/double_torus.obj", "models/cages/creature.obj",
+        "models/cages/chaikin.obj",      "models/cages/high_valence.obj"};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cages / sizeof *cages; ++i)
+    {
+        otx_run *run = test_run_create();
+        otx_chart_cut cut;
+        otx_cage cage;
+        rim *rims;
+
+        assert_int_equal(mesh_cage_from_file(run, cages[i], &cage), OSDTEX_OK);
+
+        const otx_surface surface = mesh_refine(run, &cage, 1);
+
+        assert_int_equal(
+            otx_chart_cut_make(run, &surface, INFINITY, &cut), OSDTEX_OK);
+        rims = OTX_NEW(run->arena, rim, cage.face_first[cage.face_count]);
+        for (int32_t c = 0; c < cut.chart_count; ++c)
+        {
+            const int32_t count = list_rim(&cage, &cut, c, rims);
+
+            for (int32_t a = 0; a < count; ++a)
+                for (int32_t b = 0; b < a; ++b)
+                    if (cross(&rims[a], &rims[b]))
+                        fail_msg("chart %d of %s", (int)c, cages[i]);
+        }
+        test_run_destroy(run);
+    }
+}
+
 /* What is flat is one chart of its own shape; smaller ones where it must be. */
 static void
 a_plane_is_one_chart(void **state)
@@ -100,6 +201,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(faces_are_in_one_chart),
+        cmocka_unit_test(no_rim_crosses_itself),
         cmocka_unit_test(a_plane_is_one_chart),
     };
 
