@@ -158,24 +158,49 @@ apply_one(
     return OSDTEX_OK;
 }
 
+/* All edits from `first` on. What lies between two of them goes when the later
+ * one is made; the last mapping stays with the run. */
+static otx_status
+apply_all(
+    otx_run *run, const otx_constraint_set *set, int32_t first,
+    osdtex_mapping *handle)
+{
+    const int32_t last = last_edit(set);
+    otx_arena *between = NULL;
+    otx_status status = OSDTEX_OK;
+    int32_t next;
+
+    for (int32_t n = next_edit(set, first);
+         n < INT32_MAX && status == OSDTEX_OK; n = next)
+    {
+        otx_run step = *run;
+
+        next = next_edit(set, n + 1);
+        if (next < INT32_MAX)
+            step.arena = otx_arena_create(run->allocator);
+        status = step.arena
+                     ? otx_progress(run, STAGE, (double)(n - first) / last)
+                     : otx_fail_memory(run, STAGE);
+        if (status == OSDTEX_OK)
+            status = apply_one(&step, set, n, handle);
+        otx_arena_destroy(between);
+        between = next < INT32_MAX ? step.arena : NULL;
+    }
+    otx_arena_destroy(between);
+    return status;
+}
+
 otx_status
 otx_edit_call_apply(
     otx_run *run, const otx_constraint_set *set, int32_t first,
     osdtex_mapping *handle)
 {
-    const int32_t last = last_edit(set);
-
-    if (last < first)
+    if (last_edit(set) < first)
         return OSDTEX_OK;
     OTX_TRY(otx_exemplar_names_resolve(
         run, handle->exemplars, handle->source_count, &set));
     run->seed = handle->seed;
-    for (int32_t n = next_edit(set, first); n < INT32_MAX;
-         n = next_edit(set, n + 1))
-    {
-        OTX_TRY(otx_progress(run, STAGE, (double)(n - first) / last));
-        OTX_TRY(apply_one(run, set, n, handle));
-    }
+    OTX_TRY(apply_all(run, set, first, handle));
     handle->request.constraints = set;
     return otx_mapping_check(
         run, &handle->mapping, &handle->surface->surface, handle->exemplars,

@@ -276,8 +276,10 @@ otx_subset_widen(
         if (marked[f])
             push_around(
                 surface, marked, (otx_pqueue_entry){0.0, f}, reach, &queue);
-    while (otx_pqueue_pop(&queue, &entry))
+    for (int64_t i = 0; otx_pqueue_pop(&queue, &entry); ++i)
     {
+        if (i % 4096 == 0)
+            OTX_TRY(otx_pulse(run));
         if (marked[entry.item])
             continue;
         marked[entry.item] = mark;

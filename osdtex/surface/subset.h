@@ -33,7 +33,7 @@ otx_status otx_subset_take(
  *   marked  [leaf face_count], in and out: 0 not yet, others are where it
  *           starts
  *
- * MEMORY. */
+ * CANCELLED, MEMORY. */
 otx_status otx_subset_widen(
     otx_run *run, const otx_surface *surface, double reach, uint8_t mark,
     uint8_t *marked);

@@ -181,6 +181,21 @@ class Edits(ModuleTest):
             {"face": 9, "redo": 2, "edit": 2, "reach": 0.2}])
         self.assertTrue((edited.uvs == at_once.uvs).all())
 
+    def test_many_edits_hold_no_more_than_one(self):
+        """What lies between two edits goes."""
+        cage, exemplar = self.read(TORUS)
+
+        def held(count):
+            before = self.context.held_bytes
+            mapping = self.context.map(
+                cage, exemplar, **self.HOW, constraints=[
+                    {"face": k, "redo": 1, "reach": 0.2, "edit": k + 1}
+                    for k in range(count)])
+            self.assertGreater(mapping.patch_count, 10)
+            return self.context.held_bytes - before
+
+        self.assertLess(held(6), 1.3 * held(1))
+
     def test_what_is_wrong(self):
         mapping = self.context.map(*self.read(), **QUICK)
         for options, error, words in (
