@@ -52,8 +52,8 @@ along_surface(otx_vec3 direction, otx_vec3 n)
                                                 : (otx_vec3){0, 0, 0};
 }
 
-/* Which way is up at a spot. */
-static otx_status
+/* Which way is up at a spot; false where what is asked for stands on it. */
+static bool
 choose_up(
     const otx_laying *p, const otx_place_item *item, const otx_spot *spot,
     double turn, otx_vec3 *out)
@@ -64,16 +64,20 @@ choose_up(
 
     if (!item->has_up && !(otx_vec3_length(up) > 0.0))
         up = along_surface(Z, n);
-    if (!(otx_vec3_length(up) > 0.0))
-        return otx_fail(
-            p->run, OSDTEX_ERROR_ARGUMENT, STAGE,
-            otx_laying_where(
-                p, otx_surface_leaf(p->surface)->face_cage[spot->face]),
-            "placed %d, '%.80s': \"up\" points straight out of the surface "
-            "there; give a direction along it",
-            (int)item->number, otx_laying_name(p, item));
     *out = otx_vec3_mix(cos(turn), up, sin(turn), otx_vec3_cross(n, up));
-    return OSDTEX_OK;
+    return otx_vec3_length(up) > 0.0;
+}
+
+static otx_status
+refuse_up(const otx_laying *p, const otx_place_item *item, const otx_spot *spot)
+{
+    return otx_fail(
+        p->run, OSDTEX_ERROR_ARGUMENT, STAGE,
+        otx_laying_where(
+            p, otx_surface_leaf(p->surface)->face_cage[spot->face]),
+        "placed %d, '%.80s': \"up\" points straight out of the surface there; "
+        "give a direction along it",
+        (int)item->number, otx_laying_name(p, item));
 }
 
 double
@@ -258,17 +262,18 @@ otx_laying_lay_down(
         .spot = *spot,
         .width = item->width,
         .box = box_of(p, item)};
-    otx_arena *arena = otx_arena_create(p->run->allocator);
     otx_footprint f;
-    otx_status status = OSDTEX_OK;
+    otx_status status;
+    otx_arena *arena;
 
     *kept = false;
+    if (!choose_up(p, item, spot, turn, &ask.up))
+        return only_good ? OSDTEX_OK : refuse_up(p, item, spot);
+    arena = otx_arena_create(p->run->allocator);
     if (!arena)
         return otx_fail_memory(p->run, STAGE);
-    status = choose_up(p, item, spot, turn, &ask.up);
-    if (status == OSDTEX_OK)
-        status = otx_loop_result(
-            p->run, STAGE, otx_footprint_lay(arena, &ask, &p->space, &f));
+    status = otx_loop_result(
+        p->run, STAGE, otx_footprint_lay(arena, &ask, &p->space, &f));
     if (status == OSDTEX_OK && !only_good)
         status = check(p, item, spot, &f);
     if (status == OSDTEX_OK && (!only_good || is_good(&f)))

@@ -122,6 +122,23 @@ class Place(ProgramTest):
             self.assertIn(words, result.stderr)
             self.assertFalse((self.folder / "out.obj").exists())
 
+    def test_scattered_where_up_lies_along_the_surface(self):
+        """Where it stands on the surface is passed over."""
+        cube = self.folder / "cube.obj"
+        cube.write_text(
+            "".join(f"v {x} {y} {z}\n" for z in (-1, 1) for y in (-1, 1)
+                    for x in (-1, 1)) +
+            "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\n"
+            "f 2 4 8 6\n")
+        result = self.run_map(
+            cube, PICTURE, "--scheme", "none", "--level", "0", "--scale", "1",
+            "--resolution", "64", "--json-report", self.folder / "r.json",
+            "--place", self.ask({"picture": "red.png", "scatter": 20,
+                                 "width": 0.2, "up": [0, 1, 0]}))
+        self.assert_exit(result, 0)
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())[
+            "mapping"]["placed"]["decals"], 20)
+
     def test_without_alpha_is_said(self):
         result = self.place(
             {"picture": str(EXEMPLARS / "spots_tile.png"), "face": 0,
