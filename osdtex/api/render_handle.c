@@ -77,7 +77,8 @@ options_of(
         return no_such(run, "view", ours->view, view_name);
     if (seam > 0 && ours->fov == 0.0)
     {
-        OTX_TRY(otx_worst_seam_camera(run, &model->scene, seam, camera));
+        OTX_TRY(otx_worst_seam_camera(
+            run, &model->scene, seam, model->origin, camera));
         camera->up = out->up;
         out->camera = camera;
     }

@@ -40,14 +40,15 @@ view_of(const otx_seam_place *p, double height)
 
 /* Says where it is, and how bad. */
 static void
-note_place(otx_run *run, int32_t rank, const otx_seam_place *p)
+note_place(
+    otx_run *run, int32_t rank, const otx_seam_place *p, const double origin[3])
 {
     otx_note(
         run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
         "seam%d is around (%.4g, %.4g, %.4g): %.3g units of seams, whose two "
         "sides differ by %.2f in the mean (1: black beside white)",
-        (int)rank, p->point.x, p->point.y, p->point.z, p->length,
-        p->difference);
+        (int)rank, p->point.x + origin[0], p->point.y + origin[1],
+        p->point.z + origin[2], p->length, p->difference);
 }
 
 otx_status
@@ -66,7 +67,8 @@ otx_worst_seam_count(
 
 otx_status
 otx_worst_seam_camera(
-    otx_run *run, const otx_scene *scene, int32_t rank, otx_camera *out)
+    otx_run *run, const otx_scene *scene, int32_t rank, const double origin[3],
+    otx_camera *out)
 {
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     otx_seam_places seams;
@@ -81,7 +83,7 @@ otx_worst_seam_camera(
             run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
             seams.edge_count == 0 ? "the model has no seam to look at"
                                   : "no seam of the model shows");
-    note_place(run, rank, &seams.places[seams.count - 1]);
+    note_place(run, rank, &seams.places[seams.count - 1], origin);
     *out = view_of(&seams.places[seams.count - 1], PICTURE * seams.cell);
     otx_arena_release(run->scratch, mark);
     return OSDTEX_OK;

@@ -17,12 +17,14 @@ otx_status otx_worst_seam_count(
 /* Looks at a place along its normal, from near enough that the picture is an
  * eighth of the model wide, and through what stands before it.
  *
- *   rank  1 .. OTX_SEAM_PLACES_MAX
- *   out   where places run out, the last of them
+ *   rank    1 .. OTX_SEAM_PLACES_MAX
+ *   origin  what the scene's points are relative to, for what is told
+ *   out     where places run out, the last of them
  *
  * ARGUMENT when the model has no texture or no seam; CANCELLED,
  * MEMORY. */
 otx_status otx_worst_seam_camera(
-    otx_run *run, const otx_scene *scene, int32_t rank, otx_camera *out);
+    otx_run *run, const otx_scene *scene, int32_t rank, const double origin[3],
+    otx_camera *out);
 
 #endif
