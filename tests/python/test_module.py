@@ -323,6 +323,12 @@ class Arrays(ModuleTest):
                 self.context.cage(points, bad)
         with self.assertRaises(ValueError):
             self.context.cage(points, faces, face_uvs=faces[:1])
+        for wrong in ({"faces": numpy.array(faces, "i8") + (1 << 32)},
+                      {"faces": numpy.array(faces) + 0.5},
+                      {"faces": [[0, 3, 4, 1 << 32]]},
+                      {"holes": [1 << 32]}, {"corners": {1 << 32: 1.0}}):
+            with self.assertRaisesRegex(ValueError, "whole numbers"):
+                self.context.cage(**{"points": points, "faces": faces, **wrong})
         with self.assertRaises(ValueError):
             self.context.exemplar([1.0, 2.0])
 

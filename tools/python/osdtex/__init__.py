@@ -31,20 +31,30 @@ __all__ = [
     "SupportError", "Textures", "TopologyError", "build", "methods", "version"]
 
 
+def _indices(values):
+    """As the library has them: what does not fit would become another one."""
+    array = numpy.asarray(values)
+    whole = array.astype("i4")
+    if not (whole == array).all():
+        raise ValueError(
+            "vertices and faces are named by whole numbers below 2^31")
+    return whole
+
+
 def _flatten(faces):
     """Sizes of faces and their vertices, of an array or of lists."""
     if isinstance(faces, numpy.ndarray) and faces.ndim == 2:
-        return numpy.full(len(faces), faces.shape[1], "i4"), faces.ravel()
+        return (numpy.full(len(faces), faces.shape[1], "i4"),
+                _indices(faces.ravel()))
     sizes = numpy.array([len(face) for face in faces], "i4")
-    return sizes, numpy.array(
-        [vertex for face in faces for vertex in face], "i4")
+    return sizes, _indices([vertex for face in faces for vertex in face])
 
 
 def _sharp(pairs):
     """What is sharp and how sharp, of a dictionary; two Nones of none."""
     if not pairs:
         return None, None
-    return (numpy.array(list(pairs.keys()), "i4"),
+    return (_indices(list(pairs.keys())),
             numpy.array(list(pairs.values()), "f4"))
 
 
@@ -58,7 +68,8 @@ class Context(_osdtex.Context):
         return self._make_cage(
             points, sizes, verts, uvs,
             None if face_uvs is None else _flatten(face_uvs)[1],
-            *_sharp(creases), *_sharp(corners), holes, **options)
+            *_sharp(creases), *_sharp(corners),
+            None if holes is None else _indices(holes), **options)
 
     @contextlib.contextmanager
     def outputs(self, job=None, source=None):
