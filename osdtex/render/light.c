@@ -16,6 +16,11 @@ static const double SKY_BELOW = 0.35, SKY_ABOVE = 1.0;
 static const double BOUNCE = 0.22;
 /* Tangent of the half-angle of the key's disc. */
 static const double KEY_SIZE = 0.22;
+/* Mean of the cosine over the disc, where all of it is above the horizon, of
+ * that to its middle: of 1 / sqrt(1 + r^2) over a disc of radius KEY_SIZE. */
+static const double KEY_MEAN = 0.98818;
+/* Cosine from which on it is, and bends too little to matter. */
+static const double KEY_WHOLE = 0.25;
 /* Lengths in the tracer's units, where the model has radius 1. */
 static const double LIFT = 2e-4;
 static const double REACH = 0.8;
@@ -115,29 +120,52 @@ key_direction(const otx_light *light, otx_vec2 square)
         light->key, otx_vec3_mix(disc.x, light->key_x, disc.y, light->key_y)));
 }
 
-static bool
-key_is_seen(const otx_light *light, otx_vec3 from, otx_vec3 face, otx_vec3 to)
+/* How much of the key's disc is seen: all or nothing of it by a ray. */
+static double
+key_seen(
+    const otx_light *light, const otx_light_known *known, otx_vec3 from,
+    otx_vec3 face, otx_vec3 to)
 {
+    if (known)
+        return known->key;
     return !light->shadows ||
-           (otx_vec3_dot(face, to) > 0.0 &&
-            !otx_tracer_occluded(light->tracer, from, to, INFINITY));
+                   (otx_vec3_dot(face, to) > 0.0 &&
+                    !otx_tracer_occluded(light->tracer, from, to, INFINITY))
+               ? 1.0
+               : 0.0;
+}
+
+/* A ray's cosine; where no ray is needed, that of the whole disc. */
+static double
+key_cosine(
+    const otx_light *light, const otx_light_known *known, otx_vec3 normal,
+    otx_vec3 to)
+{
+    const double middle = otx_vec3_dot(normal, light->key);
+
+    return known && middle > KEY_WHOLE ? KEY_MEAN * middle
+                                       : otx_vec3_dot(normal, to);
 }
 
 static double
 key_light(
-    const otx_light *light, otx_vec3 from, otx_vec3 face, otx_vec3 normal,
-    otx_vec2 square)
+    const otx_light *light, const otx_light_known *known, otx_vec3 from,
+    otx_vec3 face, otx_vec3 normal, otx_vec2 square)
 {
     const otx_vec3 to = key_direction(light, square);
-    const double cosine = otx_vec3_dot(normal, to);
+    const double cosine = key_cosine(light, known, normal, to);
 
-    return cosine > 0.0 && key_is_seen(light, from, face, to) ? cosine : 0.0;
+    return cosine > 0.0 ? cosine * key_seen(light, known, from, face, to) : 0.0;
 }
 
 /* Of the sky's light in a direction, what the model lets through. */
 static double
-sky_open(const otx_light *light, otx_vec3 from, otx_vec3 face, otx_vec3 to)
+sky_open(
+    const otx_light *light, const otx_light_known *known, otx_vec3 from,
+    otx_vec3 face, otx_vec3 to)
 {
+    if (known)
+        return known->sky;
     return otx_vec3_dot(face, to) <= 0.0 ||
                    otx_tracer_occluded(light->tracer, from, to, REACH)
                ? BOUNCE
@@ -146,33 +174,34 @@ sky_open(const otx_light *light, otx_vec3 from, otx_vec3 face, otx_vec3 to)
 
 static double
 sky_light(
-    const otx_light *light, otx_vec3 from, otx_vec3 face, otx_vec3 normal,
-    otx_vec2 square)
+    const otx_light *light, const otx_light_known *known, otx_vec3 from,
+    otx_vec3 face, otx_vec3 normal, otx_vec2 square)
 {
     /* Without rays: the exact mean over the hemisphere, which is that of the
      * direction two thirds of the way to the normal. */
-    if (!light->shadows)
-        return sky_from(otx_vec3_scale(2.0 / 3.0, normal));
+    if (!light->shadows || known)
+        return (known ? known->sky : 1.0) *
+               sky_from(otx_vec3_scale(2.0 / 3.0, normal));
 
     const otx_vec3 to = cosine_direction(normal, square);
 
-    return sky_open(light, from, face, to) * sky_from(to);
+    return sky_open(light, NULL, from, face, to) * sky_from(to);
 }
 
 /* The same mirrored: from the direction that stands for all of it, as open as
  * the sky is in one of the matte surface's. */
 static otx_gloss
 sky_gloss(
-    const otx_light *light, const otx_light_place *p, otx_vec3 from,
-    otx_vec2 square)
+    const otx_light *light, const otx_light_known *known,
+    const otx_light_place *p, otx_vec3 from, otx_vec2 square)
 {
     const double sky =
         sky_from(otx_gloss_direction(p->normal, p->eye, p->roughness));
-    const double open =
-        light->shadows
-            ? sky_open(
-                  light, from, p->face, cosine_direction(p->normal, square))
-            : 1.0;
+    const double open = light->shadows
+                            ? sky_open(
+                                  light, known, from, p->face,
+                                  cosine_direction(p->normal, square))
+                            : 1.0;
     const otx_gloss all = otx_gloss_sky(p->normal, p->eye, p->roughness);
 
     return (otx_gloss){open * sky * all.facing, open * sky * all.grazing};
@@ -180,43 +209,74 @@ sky_gloss(
 
 otx_lit
 otx_light_material(
-    const otx_light *light, const otx_light_place *p, int32_t number,
-    int32_t count, uint64_t key)
+    const otx_light *light, const otx_light_place *p,
+    const otx_light_rays *rays)
 {
+    const otx_light_known *known = rays->known;
     const otx_vec3 from = otx_vec3_add(p->at, otx_vec3_scale(LIFT, p->face));
-    const otx_vec2 a = sample_square(number, count, key, 1);
-    const otx_vec2 b = sample_square(number, count, key, 2);
+    const otx_vec2 a = sample_square(rays->number, rays->count, rays->key, 1);
+    const otx_vec2 b = sample_square(rays->number, rays->count, rays->key, 2);
     const otx_vec3 to = key_direction(light, a);
-    const double cosine = otx_vec3_dot(p->normal, to);
+    const double cosine = key_cosine(light, known, p->normal, to);
     const double sky = SKY * p->open;
-    const otx_gloss of_sky = sky_gloss(light, p, from, b);
+    const otx_gloss of_sky = sky_gloss(light, known, p, from, b);
     otx_lit lit = {
-        sky * sky_light(light, from, p->face, p->normal, b),
+        sky * sky_light(light, known, from, p->face, p->normal, b),
         {sky * of_sky.facing, sky * of_sky.grazing}};
 
-    if (!(cosine > 0.0) || !key_is_seen(light, from, p->face, to))
+    const double key =
+        cosine > 0.0 ? KEY * key_seen(light, known, from, p->face, to) : 0.0;
+
+    if (!(key > 0.0))
         return lit;
 
     const otx_gloss gloss =
         otx_gloss_light(p->normal, to, p->eye, p->roughness);
 
-    lit.matte += KEY * cosine;
-    lit.gloss.facing += KEY * gloss.facing;
-    lit.gloss.grazing += KEY * gloss.grazing;
+    lit.matte += key * cosine;
+    lit.gloss.facing += key * gloss.facing;
+    lit.gloss.grazing += key * gloss.grazing;
     return lit;
 }
 
 double
 otx_light_at(
     const otx_light *light, otx_vec3 at, otx_vec3 face, otx_vec3 normal,
-    int32_t number, int32_t count, uint64_t key)
+    const otx_light_rays *rays)
+{
+    const otx_light_known *known = rays->known;
+    const otx_vec3 from = otx_vec3_add(at, otx_vec3_scale(LIFT, face));
+    const otx_vec2 a = sample_square(rays->number, rays->count, rays->key, 1);
+    const otx_vec2 b = sample_square(rays->number, rays->count, rays->key, 2);
+
+    return KEY * key_light(light, known, from, face, normal, a) +
+           SKY * sky_light(light, known, from, face, normal, b);
+}
+
+otx_light_known
+otx_light_probe(
+    const otx_light *light, otx_vec3 at, otx_vec3 face, otx_vec3 normal,
+    int32_t count, uint64_t key)
 {
     const otx_vec3 from = otx_vec3_add(at, otx_vec3_scale(LIFT, face));
-    const otx_vec2 a = sample_square(number, count, key, 1);
-    const otx_vec2 b = sample_square(number, count, key, 2);
+    double seen = 0.0, open = 0.0;
+    int32_t lit = 0;
 
-    return KEY * key_light(light, from, face, normal, a) +
-           SKY * sky_light(light, from, face, normal, b);
+    for (int32_t i = 0; i < count; ++i)
+    {
+        const otx_vec3 to =
+            key_direction(light, sample_square(i, count, key, 1));
+        const otx_vec3 sky =
+            cosine_direction(normal, sample_square(i, count, key, 2));
+
+        open += sky_open(light, NULL, from, face, sky);
+        /* What turns away from it is dark without a ray. */
+        if (!(otx_vec3_dot(normal, to) > 0.0))
+            continue;
+        ++lit;
+        seen += key_seen(light, NULL, from, face, to);
+    }
+    return (otx_light_known){lit > 0 ? seen / lit : 0.0, open / count};
 }
 
 double

@@ -3,6 +3,7 @@
 
 #include "base/random.h"
 #include "render/framing.h"
+#include "render/quick.h"
 #include "render/shade.h"
 
 #include <string.h>
@@ -34,6 +35,8 @@ static const char *const SHOW_NAMES[OTX_SHOW_COUNT] = {
 typedef struct job
 {
     const otx_shade *shade;
+    const otx_light_map *map;
+    const otx_quick *quick; /* NULL: all pixels take all samples */
     otx_image *image;
     int32_t row; /* of tiles */
 } job;
@@ -118,63 +121,35 @@ wall(double height)
     return (float)(0.115 + 0.085 * height);
 }
 
-/* A place in square (x, y) of the pixel's n x n, jittered by number. */
-static otx_vec2
-sample_place(int32_t n, int32_t number, uint64_t pixel)
-{
-    const uint64_t bits = otx_random_bits(pixel, 0, (uint64_t)number);
-    const double jx = (double)(bits >> 32) * 0x1p-32;
-    const double jy = (double)(bits & 0xFFFFFFFFu) * 0x1p-32;
-
-    if (n == 1)
-        return (otx_vec2){0.5, 0.5};
-    return (otx_vec2){(number % n + jx) / n, (number / n + jy) / n};
-}
-
-/* The nearest that a ray from far away need begin to meet the unit ball; the
- * rest of the way would cost the floats of the ray their precision. */
-static otx_vec3
-ray_origin(otx_vec3 eye, otx_vec3 direction)
-{
-    const double skip = -otx_vec3_dot(eye, direction) - 1.5;
-
-    return skip > 0.0 ? otx_vec3_mix(1.0, eye, skip, direction) : eye;
-}
-
 static bool
 trace_sample(const otx_shade *shade, otx_shade_sample *sample, float rgb[3])
 {
-    const otx_camera_frame *frame = &shade->frame;
-    otx_vec3 from;
     otx_hit hit;
 
-    sample->direction = otx_camera_direction(frame, sample->at.x, sample->at.y);
-    from = otx_vec3_mix(
-        1.0, frame->eye,
-        frame->near / otx_vec3_dot(sample->direction, frame->forward),
-        sample->direction);
-    if (!otx_tracer_hit(
-            shade->tracer, ray_origin(from, sample->direction),
-            sample->direction, &hit))
+    if (!otx_quick_trace(shade, sample, &hit))
         return false;
     otx_shade_hit(shade, &hit, sample, rgb);
     return true;
 }
 
+/* By all its samples; `known` may be NULL. */
 static void
-render_pixel(const otx_shade *shade, int32_t x, int32_t y, float rgba[4])
+render_mixed(
+    const otx_shade *shade, int32_t x, int32_t y, uint64_t pixel,
+    const otx_light_known *known, float rgba[4])
 {
     const otx_render_options *options = shade->options;
     const int32_t n = options->samples;
-    const uint64_t pixel =
-        otx_random_mix((uint64_t)y << 32 | (uint64_t)(uint32_t)x);
     double sum[4] = {0.0, 0.0, 0.0, 0.0};
 
     for (int32_t i = 0; i < n * n; ++i)
     {
-        const otx_vec2 place = sample_place(n, i, pixel);
+        const otx_vec2 place = otx_quick_place(n, i, pixel);
         otx_shade_sample sample = {
-            .at = {x + place.x, y + place.y}, .number = i, .pixel = pixel};
+            .at = {x + place.x, y + place.y},
+            .number = i,
+            .pixel = pixel,
+            .known = known};
         const float back = wall(sample.at.y / options->height);
         float rgb[3] = {back, back, back};
         const bool met = trace_sample(shade, &sample, rgb);
@@ -187,6 +162,38 @@ render_pixel(const otx_shade *shade, int32_t x, int32_t y, float rgba[4])
     }
     for (int32_t c = 0; c < 4; ++c)
         rgba[c] = (float)(sum[c] / (n * n));
+}
+
+/* A pixel without the model. */
+static void
+render_wall(const otx_render_options *options, int32_t y, float rgba[4])
+{
+    const float back = wall((y + 0.5) / options->height);
+
+    for (int32_t c = 0; c < 3; ++c)
+        rgba[c] = options->transparent ? 0.0f : back;
+    rgba[3] = options->transparent ? 0.0f : 1.0f;
+}
+
+static void
+render_pixel(const job *work, int32_t x, int32_t y, float rgba[4])
+{
+    const uint64_t pixel =
+        otx_random_mix((uint64_t)y << 32 | (uint64_t)(uint32_t)x);
+    otx_quick_result result = OTX_QUICK_MIXED;
+    otx_light_known known;
+
+    if (!otx_light_map_covers(work->map, x, y))
+        result = OTX_QUICK_EMPTY;
+    else if (work->quick)
+        result = otx_quick_pixel(work->quick, x, y, pixel, rgba, &known);
+    rgba[3] = 1.0f;
+    if (result == OTX_QUICK_EMPTY)
+        render_wall(work->shade->options, y, rgba);
+    if (result == OTX_QUICK_MIXED || result == OTX_QUICK_FINE)
+        render_mixed(
+            work->shade, x, y, pixel, result == OTX_QUICK_FINE ? &known : NULL,
+            rgba);
 }
 
 static otx_status
@@ -203,7 +210,7 @@ render_tile(void *context, int64_t index, otx_worker *worker)
     (void)worker;
     for (int32_t y = y0; y < y1; ++y)
         for (int32_t x = x0; x < x1; ++x)
-            render_pixel(work->shade, x, y, otx_image_at(work->image, x, y));
+            render_pixel(work, x, y, otx_image_at(work->image, x, y));
     return OSDTEX_OK;
 }
 
@@ -213,10 +220,18 @@ render_tiles(otx_run *run, const otx_shade *shade, otx_image *image)
 {
     const int32_t columns = (image->width + TILE - 1) / TILE;
     const int32_t rows = (image->height + TILE - 1) / TILE;
+    const bool is_quick = otx_quick_suits(shade->options);
+    otx_light_map map;
+    otx_quick quick;
 
+    OTX_TRY(otx_light_map_make(
+        run, shade, image->width, image->height,
+        is_quick && otx_shade_is_lit(shade->options) && shade->light.shadows,
+        &map));
+    otx_quick_prepare(shade, &map, &quick);
     for (int32_t row = 0; row < rows; ++row)
     {
-        job work = {shade, image, row};
+        job work = {shade, &map, is_quick ? &quick : NULL, image, row};
 
         OTX_TRY(otx_progress(run, STAGE, (double)row / rows));
         OTX_TRY(otx_pool_for(run->pool, columns, render_tile, &work));

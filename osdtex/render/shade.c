@@ -95,6 +95,7 @@ otx_shade_prepare(
         .frame = *frame,
         .light = otx_light_create(tracer, frame, !options->no_shadows),
         .light_rays = (PIXEL_RAYS + per_pixel - 1) / per_pixel,
+        .share = 1.0 / options->samples,
     };
     out->lines = (otx_lines){scene, tracer, &out->frame};
     if (options->wire)
@@ -215,7 +216,7 @@ texture_color(const otx_shade *shade, const otx_hit *hit, float rgb[3])
         scene->uvs,   scene->face_first, scene->lookups,    NULL,
         scene->field, scene->along,      scene->face_verts, scene->decals};
     const int32_t t = texture_of(scene, hit->face);
-    const double share = 1.0 / shade->options->samples;
+    const double share = shade->share;
     float color[OTX_IMAGE_MAX_CHANNELS];
 
     if (t < 0)
@@ -292,9 +293,8 @@ corner_normal(const otx_scene *scene, int32_t corner, otx_vec3 face)
     return n;
 }
 
-/* Unit, on the outside by the winding. */
-static otx_vec3
-hit_normal(const otx_scene *scene, const otx_hit *hit)
+otx_vec3
+otx_shade_normal(const otx_scene *scene, const otx_hit *hit)
 {
     otx_vec3 sum = {0.0, 0.0, 0.0};
 
@@ -401,9 +401,8 @@ draw_lines(
             rgb[c] *= 0.15f;
 }
 
-/* UVs and normals are numbers, which light would falsify. */
-static bool
-is_lit(const otx_render_options *options)
+bool
+otx_shade_is_lit(const otx_render_options *options)
 {
     return !options->unlit && options->show != OTX_SHOW_UV &&
            options->show != OTX_SHOW_NORMALS;
@@ -503,8 +502,7 @@ material_at(
     float values[OTX_IMAGE_MAX_CHANNELS];
 
     otx_show_color(
-        &show, maps->textures, &place, t, 1.0 / shade->options->samples,
-        maps->channels, values);
+        &show, maps->textures, &place, t, shade->share, maps->channels, values);
     return (material){
         told_normal(scene, hit, &f, values, normal),
         clay ? CLAY_ROUGHNESS : value_of(maps, values, OTX_COMPANION_ROUGHNESS),
@@ -534,9 +532,10 @@ light_material(
 
     for (int32_t i = 0; i < rays; ++i)
     {
-        const otx_lit lit = otx_light_material(
-            &shade->light, &place, sample->number * rays + i, count * rays,
-            sample->pixel);
+        const otx_light_rays ray = {
+            sample->number * rays + i, count * rays, sample->pixel,
+            sample->known};
+        const otx_lit lit = otx_light_material(&shade->light, &place, &ray);
 
         sum.matte += lit.matte / rays;
         sum.gloss.facing += lit.gloss.facing / rays;
@@ -574,10 +573,15 @@ light_at_hit(
     double sum = 0.0;
 
     for (int32_t i = 0; i < rays; ++i)
+    {
+        const otx_light_rays ray = {
+            sample->number * rays + i, n * n * rays, sample->pixel,
+            sample->known};
+
         sum += otx_light_at(
             &shade->light, hit->at, otx_vec3_scale(side, hit->normal),
-            otx_vec3_scale(side, normal), sample->number * rays + i,
-            n * n * rays, sample->pixel);
+            otx_vec3_scale(side, normal), &ray);
+    }
     return sum / rays;
 }
 
@@ -586,11 +590,11 @@ otx_shade_hit(
     const otx_shade *shade, const otx_hit *hit, const otx_shade_sample *sample,
     float rgb[3])
 {
-    const otx_vec3 normal = hit_normal(shade->scene, hit);
+    const otx_vec3 normal = otx_shade_normal(shade->scene, hit);
 
     surface_color(shade, hit, sample->at, normal, rgb);
     draw_lines(shade, hit, sample->at, rgb);
-    if (!is_lit(shade->options))
+    if (!otx_shade_is_lit(shade->options))
         return;
     if (shows_material(shade, hit))
     {

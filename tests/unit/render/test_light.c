@@ -32,7 +32,8 @@ mean(const otx_light *light, otx_vec3 at, otx_vec3 normal, int32_t count)
     double sum = 0.0;
 
     for (int32_t i = 0; i < count; ++i)
-        sum += otx_light_at(light, at, normal, normal, i, count, 5);
+        sum += otx_light_at(
+            light, at, normal, normal, &(otx_light_rays){i, count, 5, NULL});
     return sum / count;
 }
 
@@ -140,14 +141,19 @@ materials_are_lit_alike(void **state)
             .eye = n,
             .roughness = 0.5,
             .open = 1.0};
-        const otx_lit lit = otx_light_material(&light, &place, i, 64, 9);
+        const otx_lit lit = otx_light_material(
+            &light, &place, &(otx_light_rays){i, 64, 9, NULL});
         otx_lit dark, smooth;
 
         assert_float_equal(
-            lit.matte, otx_light_at(&light, place.at, n, n, i, 64, 9), 1e-12);
+            lit.matte,
+            otx_light_at(
+                &light, place.at, n, n, &(otx_light_rays){i, 64, 9, NULL}),
+            1e-12);
         assert_true(lit.gloss.facing >= 0.0 && lit.gloss.grazing >= 0.0);
         place.open = 0.0;
-        dark = otx_light_material(&light, &place, i, 64, 9);
+        dark = otx_light_material(
+            &light, &place, &(otx_light_rays){i, 64, 9, NULL});
         assert_true(dark.matte <= lit.matte);
         if (otx_vec3_dot(n, light.key) < -0.3)
         {
@@ -156,7 +162,8 @@ materials_are_lit_alike(void **state)
         }
         place.open = 1.0;
         place.roughness = 0.0;
-        smooth = otx_light_material(&light, &place, i, 64, 9);
+        smooth = otx_light_material(
+            &light, &place, &(otx_light_rays){i, 64, 9, NULL});
         assert_float_equal(smooth.matte, lit.matte, 1e-12);
     }
 }
@@ -172,11 +179,16 @@ samples_have_no_state(void **state)
     int32_t other = 0;
 
     for (int32_t i = 0; i < 16; ++i)
-        first[i] = otx_light_at(&light, at, n, n, i, 16, 1);
+        first[i] =
+            otx_light_at(&light, at, n, n, &(otx_light_rays){i, 16, 1, NULL});
     for (int32_t i = 15; i >= 0; --i)
     {
-        assert_true(otx_light_at(&light, at, n, n, i, 16, 1) == first[i]);
-        other += otx_light_at(&light, at, n, n, i, 16, 2) != first[i];
+        assert_true(
+            otx_light_at(&light, at, n, n, &(otx_light_rays){i, 16, 1, NULL}) ==
+            first[i]);
+        other +=
+            otx_light_at(&light, at, n, n, &(otx_light_rays){i, 16, 2, NULL}) !=
+            first[i];
     }
     assert_int_equal(other, 16);
 }
