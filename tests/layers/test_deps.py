@@ -24,6 +24,7 @@ PACKAGES = {
     "OpenImageIO": "openimageio", "PyOpenColorIO": "opencolorio",
     "oiiotool": "openimageio-tools", "idiff": "openimageio-tools",
     "exrheader": "openexr", "exrmultipart": "openexr",
+    "tiffinfo": "libtiff-tools",
     "munged": "munge", "slurmctld": "slurm-wlm", "slurmd": "slurm-wlm",
     "sbatch": "slurm-wlm", "scontrol": "slurm-wlm", "sinfo": "slurm-wlm",
     "squeue": "slurm-wlm", "node": "nodejs", "nm": "binutils",
