@@ -252,8 +252,6 @@ vary_slice(work *w, int32_t m, const float *field, int32_t *const *before)
     otx_synth_options options = otx_synth_making();
 
     options.levels = w->pattern.level_count;
-    options.usage = 0.0;
-    options.histogram = 0.0;
     options.turn = 0.0;
     options.tolerance = HELD;
     options.apart = APART * side;
