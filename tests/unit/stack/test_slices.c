@@ -98,6 +98,47 @@ what_does_not_change_stays(void **state)
     test_run_destroy(s->run);
 }
 
+/* How far two places are, along the axis along which they are farther. */
+static int32_t
+apart(int32_t a, int32_t b)
+{
+    int32_t dx = abs(a % SIDE - b % SIDE), dy = abs(a / SIDE - b / SIDE);
+
+    dx = dx > SIDE / 2 ? SIDE - dx : dx;
+    dy = dy > SIDE / 2 ? SIDE - dy : dy;
+    return dx > dy ? dx : dy;
+}
+
+/* Slices that vary show the one mask by texels from elsewhere: 9 away, of which
+ * the last step may take 3 back. */
+static void
+slices_that_vary_are_from_elsewhere(void **state)
+{
+    scene *s = set(2, 0.0);
+    int32_t *varied[COUNT];
+
+    (void)state;
+    assert_int_equal(
+        otx_slices_vary(
+            s->run, &(otx_slices_input){&s->lab, s->list, COUNT, 4.0, 0.8, 1},
+            varied),
+        OSDTEX_OK);
+    for (int32_t m = 1; m < COUNT; ++m)
+    {
+        int32_t near = 0, wrong = 0;
+
+        for (int32_t i = 0; i < TEXELS; ++i)
+        {
+            for (int32_t k = 0; k < m; ++k)
+                near += apart(varied[m][i], varied[k][i]) < 6;
+            wrong += s->masks[0][varied[m][i]] != s->masks[0][i];
+        }
+        assert_true(near < TEXELS / 50);
+        assert_true(wrong < TEXELS / 50);
+    }
+    test_run_destroy(s->run);
+}
+
 static void
 the_same_on_any_number_of_threads(void **state)
 {
@@ -117,6 +158,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slices_show_their_masks),
         cmocka_unit_test(what_does_not_change_stays),
+        cmocka_unit_test(slices_that_vary_are_from_elsewhere),
         cmocka_unit_test(the_same_on_any_number_of_threads),
     };
 
