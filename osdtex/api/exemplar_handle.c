@@ -337,6 +337,25 @@ keep_tiles(
     return OSDTEX_OK;
 }
 
+/* The slices of a stack, of which the handle holds the one in the middle. */
+static otx_status
+keep_slices(
+    otx_call *call, const char *path, int32_t count,
+    const otx_exemplar_input *input, const osdtex_exemplar_options *options,
+    osdtex_exemplar *handle)
+{
+    OTX_TRY(otx_exemplar_slices_read(
+        call, path, count, input, options, &handle->exemplar,
+        &handle->exemplar.slices));
+    handle->info.slices = count;
+    otx_note(
+        &call->run, OSDTEX_SEVERITY_INFO, "exemplar", otx_where_file(path),
+        "the file is a stack of %d slices; what is matched is the one in the "
+        "middle",
+        count);
+    return OSDTEX_OK;
+}
+
 static otx_status
 read_exemplar(
     otx_call *call, const char *path, const osdtex_exemplar_options *options,
@@ -387,17 +406,7 @@ read_exemplar(
         call, &input, &ours, cuts, otx_picture_source_type(&picture),
         picture.tiles || slices, out));
     if (slices)
-    {
-        OTX_TRY(otx_exemplar_slices_read(
-            call, path, slices, &input, &ours, &(*out)->exemplar,
-            &(*out)->exemplar.slices));
-        (*out)->info.slices = slices;
-        otx_note(
-            &call->run, OSDTEX_SEVERITY_INFO, "exemplar", otx_where_file(path),
-            "the file is a stack of %d slices; what is matched is the one in "
-            "the middle",
-            slices);
-    }
+        OTX_TRY(keep_slices(call, path, slices, &input, &ours, *out));
     return picture.tiles ? keep_tiles(&call->run, path, picture.tiles, *out)
                          : OSDTEX_OK;
 }

@@ -134,6 +134,19 @@ take_mask(work *w, int32_t k, const osdtex_image *given)
     return OSDTEX_OK;
 }
 
+static otx_status
+align_maps(work *w)
+{
+    const otx_image *first = &w->exemplars[0].linear;
+    otx_stack_maps sets[OSDTEX_STACK_KEYS_MAX];
+
+    for (int32_t k = 0; k < w->count; ++k)
+        sets[k] = (otx_stack_maps){
+            &w->exemplars[k].companions, w->exemplars[k].source_path};
+    return otx_stack_maps_align(
+        w->run, sets, w->count, first->width, first->height);
+}
+
 static bool
 is_given(const work *w, int32_t k)
 {
@@ -284,7 +297,7 @@ write_stack(
     run->seed = w->options.seed;
     for (int32_t k = 0; k < key_count; ++k)
         OTX_TRY(fit(w, k, &keys[k]->exemplar));
-    OTX_TRY(otx_stack_maps_align(run, w->exemplars, key_count));
+    OTX_TRY(align_maps(w));
     OTX_TRY(choose_masks(w));
     how = (otx_stack_options){
         .slices = w->options.slices,

@@ -7,7 +7,7 @@ static const char STAGE[] = "stack";
 
 /* The union of all, without pixels. */
 static otx_companions
-plan(const otx_exemplar *exemplars, int32_t count)
+plan(const otx_stack_maps *sets, int32_t count)
 {
     otx_companions all = {.height_middle = 0.5};
 
@@ -16,8 +16,8 @@ plan(const otx_exemplar *exemplars, int32_t count)
         const otx_companion *found = NULL;
 
         for (int32_t k = 0; k < count && !found; ++k)
-            if (exemplars[k].companions.maps[kind].is_there)
-                found = &exemplars[k].companions.maps[kind];
+            if (sets[k].companions->maps[kind].is_there)
+                found = &sets[k].companions->maps[kind];
         if (!found)
             continue;
         all.maps[kind] = *found;
@@ -47,24 +47,24 @@ put(const otx_companions *from, otx_companion_kind kind, otx_companions *out)
 }
 
 static otx_status
-align(otx_run *run, const otx_companions *all, otx_exemplar *e)
+align(
+    otx_run *run, const otx_companions *all, const otx_stack_maps *set,
+    int32_t width, int32_t height)
 {
-    const otx_companions from = e->companions;
+    const otx_companions from = *set->companions;
+    otx_companions *out = set->companions;
 
-    e->companions.image = (otx_image){0};
-    memcpy(e->companions.maps, all->maps, sizeof all->maps);
+    memcpy(out->maps, all->maps, sizeof all->maps);
     OTX_TRY(otx_image_create(
-        run, run->arena, e->linear.width, e->linear.height, all->image.channels,
-        &e->companions.image));
+        run, run->arena, width, height, all->image.channels, &out->image));
     for (int kind = 0; kind < OTX_COMPANION_COUNT; ++kind)
     {
         if (!all->maps[kind].is_there)
             continue;
-        put(&from, (otx_companion_kind)kind, &e->companions);
+        put(&from, (otx_companion_kind)kind, out);
         if (!from.maps[kind].is_there)
             otx_note(
-                run, OSDTEX_SEVERITY_WARNING, STAGE,
-                otx_where_file(e->source_path),
+                run, OSDTEX_SEVERITY_WARNING, STAGE, otx_where_file(set->path),
                 "another picture of the stack has a %s map and this one has "
                 "none; it is taken to be flat",
                 otx_companion_name((otx_companion_kind)kind));
@@ -73,11 +73,13 @@ align(otx_run *run, const otx_companions *all, otx_exemplar *e)
 }
 
 otx_status
-otx_stack_maps_align(otx_run *run, otx_exemplar *exemplars, int32_t count)
+otx_stack_maps_align(
+    otx_run *run, const otx_stack_maps *sets, int32_t count, int32_t width,
+    int32_t height)
 {
-    const otx_companions all = plan(exemplars, count);
+    const otx_companions all = plan(sets, count);
 
     for (int32_t k = 0; k < count && all.image.channels > 0; ++k)
-        OTX_TRY(align(run, &all, &exemplars[k]));
+        OTX_TRY(align(run, &all, &sets[k], width, height));
     return OSDTEX_OK;
 }
