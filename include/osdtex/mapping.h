@@ -280,6 +280,10 @@ typedef struct osdtex_write_options
                             * baked into; 0: 512 to 8192, as the exemplar's
                             * own density asks for. Others have no such
                             * texture */
+    int32_t pastes;        /* 1: pastes as layers of faces and the pictures
+                            * that these look up, instead of a texture that
+                            * they are baked into */
+    int32_t reserved;
 } osdtex_write_options;
 
 static inline osdtex_write_options
@@ -297,8 +301,10 @@ osdtex_write_options_init(osdtex_write_options *out, size_t bytes);
 /* Writes NAME.obj (`path`), NAME.mtl and NAME.exr, all or none of them. Of
  * several exemplars NAME_1.exr, NAME_2.exr and so on, each with materials of
  * its own. Of a mapping of pastes over one another (method lapped) the UVs are
- * those of an atlas, and NAME.exr is what was baked onto it. ARGUMENT, IO,
- * LIMIT, MEMORY, CANCELLED. */
+ * those of an atlas, and NAME.exr is what was baked onto it; or as a run-time
+ * list (`pastes`) NAME.obj, NAME.mtl, NAME.exr, NAME_pastes.exr and NAME.usda,
+ * which docs/formats-pastes.md describes. ARGUMENT, SUPPORT (a list of what are
+ * no pastes), IO, LIMIT, MEMORY, CANCELLED. */
 OSDTEX_API osdtex_status osdtex_mapping_write(
     osdtex_context *context, const osdtex_mapping *mapping, const char *path,
     const osdtex_write_options *options);

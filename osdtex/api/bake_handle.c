@@ -66,6 +66,11 @@ check_files(
         return otx_fail(
             run, OSDTEX_ERROR_ARGUMENT, "bake", OTX_NOWHERE,
             "no path or no comments are given");
+    if (mesh->pastes)
+        return otx_fail(
+            run, OSDTEX_ERROR_ARGUMENT, "bake", OTX_NOWHERE,
+            "a bake has the pastes in its textures: a list of them is written "
+            "by itself");
     if (!(ours->meters_per_unit >= 0.0 && isfinite(ours->meters_per_unit)) ||
         ours->up_axis < OSDTEX_UP_Y || ours->up_axis > OSDTEX_UP_Z)
         return otx_fail(

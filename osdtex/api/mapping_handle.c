@@ -178,6 +178,7 @@ otx_mapping_handle_model_options(const osdtex_write_options *options)
     return (otx_model_options){
         .without_image = options->without_image != 0,
         .normals = options->normals != 0,
+        .pastes = options->pastes != 0,
         .resolution = options->resolution,
         .comment_count = options->comment_count,
         .comments = options->comments};

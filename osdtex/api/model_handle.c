@@ -3,6 +3,7 @@
  * space that light is added up in. */
 #include "api/call.h"
 #include "api/handle.h"
+#include "api/model_layers.h"
 #include "api/model_maps.h"
 #include "api/picture_source.h"
 #include "colour/decoder.h"
@@ -29,6 +30,7 @@ typedef struct material_look
 {
     int32_t texture;     /* -1 none */
     bool is_constant;    /* a texture of one texel, for faces without UVs too */
+    bool is_cut_out;     /* by the alpha of its texture */
     const char *pattern; /* of files that are one for each UDIM tile; NULL */
     otx_data_maps maps;  /* beside them; likewise patterns */
 } material_look;
@@ -172,6 +174,8 @@ look_of(
 
     if (material->map_kd)
     {
+        out->is_cut_out =
+            material->map_d && strcmp(material->map_d, material->map_kd) == 0;
         texture = beside(run->arena, path, material->map_kd);
         OTX_TRY(maps_beside(run, path, &material->maps, &out->maps));
         if (otx_udim_name_is_pattern(texture))
@@ -366,6 +370,27 @@ hole_faces(otx_run *run, const otx_obj *obj, otx_scene *scene)
     return OSDTEX_OK;
 }
 
+/* Faces that are cut out lie over those of the same corners before them. */
+static otx_status
+fold_layers(loader *l)
+{
+    const otx_obj *obj = l->obj;
+    uint8_t *over = OTX_ZNEW(l->call->run.scratch, uint8_t, obj->face_count);
+    bool any = false;
+
+    OTX_TRY(otx_run_ok(&l->call->run));
+    for (int32_t f = 0; obj->face_material && f < obj->face_count; ++f)
+    {
+        const int32_t material = obj->face_material[f];
+
+        over[f] = material >= 0 && l->looks[material].is_cut_out;
+        any = any || over[f];
+    }
+    return any ? otx_model_layers_fold(
+                     &l->call->run, over, l->textures, l->scene)
+               : OSDTEX_OK;
+}
+
 static otx_status
 load(loader *l)
 {
@@ -388,6 +413,7 @@ load(loader *l)
     choose_wrapping(l);
     l->scene->textures = l->textures;
     l->scene->texture_count = l->texture_count;
+    OTX_TRY(fold_layers(l));
     return otx_model_maps_read(l->call, l->maps, l->scene, &l->scene->maps);
 }
 

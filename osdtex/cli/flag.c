@@ -254,6 +254,10 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
         {"normals", 0, OTX_FLAG_GROUP_MAIN, NULL,
          "also write normals (vn): those of the limit surface, one for each "
          "side of an infinitely sharp crease"},
+    [OTX_FLAG_PASTES] =
+        {"pastes", 0, OTX_FLAG_GROUP_MAIN, NULL,
+         "write what --method lapped pastes as layers of faces that lie over "
+         "one another, with NAME_pastes.exr and NAME.usda, instead of a bake"},
     [OTX_FLAG_UNITS] =
         {"units", 0, OTX_FLAG_GROUP_BAKE, "m|cm|mm|km|in|ft|METRES",
          "what a scene unit is, for NAME.usda (default: m with --for blender "

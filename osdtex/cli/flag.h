@@ -67,6 +67,7 @@ typedef enum otx_flag_id
     OTX_FLAG_PREVIEW_PNG,
     OTX_FLAG_UDIM,
     OTX_FLAG_NORMALS,
+    OTX_FLAG_PASTES,
     OTX_FLAG_UNITS,
     OTX_FLAG_UP,
     OTX_FLAG_PREVIEW,

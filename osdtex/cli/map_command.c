@@ -149,6 +149,7 @@ write_models(otx_session *session, const job *j, const char *const *comments)
     osdtex_bake_options bake = r->bake_options;
 
     options.normals = r->values->text[OTX_FLAG_NORMALS] != NULL;
+    options.pastes = r->values->text[OTX_FLAG_PASTES] != NULL;
     if (r->values->text[OTX_FLAG_RESOLUTION])
         options.resolution = bake.resolution;
     options.comments = bake.comments = comments;

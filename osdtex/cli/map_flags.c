@@ -45,6 +45,27 @@ texture_extension(const otx_map_flags *r)
     return osdtex_texture_extension(texture_type(r), -1);
 }
 
+/* A list of pastes is of one exemplar, and instead of a bake. */
+static bool
+name_pastes(otx_map_flags *r, const char *extension)
+{
+    char suffix[32];
+
+    if (r->bakes || r->exr_count > 1)
+    {
+        otx_session_refuse(
+            r->bakes ? "--pastes writes a list instead of a bake; leave --bake "
+                       "out"
+                     : "--pastes writes pieces of one exemplar; leave --also "
+                       "out");
+        return false;
+    }
+    snprintf(suffix, sizeof suffix, "_pastes%s", extension);
+    r->exr_count = 2;
+    return name_beside(r->mtl, suffix, r->exrs[1]) &&
+           name_beside(r->mtl, ".usda", r->usda);
+}
+
 /* NAME.exr, or of several exemplars NAME_1.exr and so on. */
 bool
 otx_map_flags_name(otx_map_flags *r)
@@ -66,7 +87,8 @@ otx_map_flags_name(otx_map_flags *r)
             return false;
         }
     }
-    return true;
+    return !r->maps || !r->values->text[OTX_FLAG_PASTES] || r->exr_count == 0 ||
+           name_pastes(r, extension);
 }
 
 /* Those that exemplar k has in its own file, a stack. */
@@ -89,6 +111,7 @@ kinds_of(const otx_map_flags *r, int k)
     const osdtex_material_info *set;
     uint32_t kinds = 0;
 
+    k = r->usda[0] ? 0 : k;
     if (k == 0)
         kinds = otx_material_flags_kinds(&r->material);
     if (kinds == 0)
@@ -466,6 +489,8 @@ otx_map_flags_outputs(const otx_map_flags *r, otx_path_list *out)
     for (int i = 0; r->maps && i < r->exr_count * OSDTEX_MAP_KINDS; ++i)
         if (name_map(r, i / OSDTEX_MAP_KINDS, i % OSDTEX_MAP_KINDS, path))
             otx_path_list_add(out, path);
+    if (r->usda[0])
+        otx_path_list_add(out, r->usda);
     if (r->bakes)
         otx_bake_outputs_list(
             r->cage_obj, &r->bake_options, all_kinds(r), texture_type(r), out);
@@ -492,10 +517,14 @@ otx_map_flags_is_done(
     const otx_map_flags *r, const char hash[OSDTEX_HASH_BYTES])
 {
     const char *const files[] = {
-        r->maps ? r->obj : NULL, r->maps ? r->mtl : NULL, r->preview, r->report,
-        r->save};
+        r->maps ? r->obj : NULL,
+        r->maps ? r->mtl : NULL,
+        r->preview,
+        r->report,
+        r->save,
+        r->usda[0] ? r->usda : NULL};
 
-    for (int i = 0; i < 5; ++i)
+    for (int i = 0; i < 6; ++i)
         if (files[i] && !otx_up_to_date_check(files[i], hash))
             return false;
     for (int k = 0; r->maps && k < r->exr_count; ++k)

@@ -27,9 +27,11 @@ typedef struct otx_map_flags
     osdtex_render_options picture; /* of the preview */
     bool maps, bakes;              /* which files are asked for */
     char obj[OTX_MAP_PATH_BYTES], mtl[OTX_MAP_PATH_BYTES];
+    /* With --pastes the exemplar, and its pieces. */
     char exrs[OSDTEX_EXEMPLARS_MAX][OTX_MAP_PATH_BYTES];
     int exr_count; /* 0 before a saved mapping has said */
     char cage_obj[OTX_MAP_PATH_BYTES], cage_mtl[OTX_MAP_PATH_BYTES];
+    char usda[OTX_MAP_PATH_BYTES];       /* of --pastes; empty without */
     const char *preview, *report, *save; /* NULL none */
 } otx_map_flags;
 

@@ -16,8 +16,7 @@ enum
     SIDE_MOST = 8192
 };
 
-/* Share of an atlas that its faces fill, about. */
-static const double FILLED = 0.7;
+static const double FILLED = 0.7; /* of an atlas by its faces, about */
 
 bool
 otx_baked_texture_is_needed(const otx_mapping *mapping)
@@ -32,19 +31,28 @@ otx_baked_texture_is_needed(const otx_mapping *mapping)
                 mapping->field, leaf->face_hole, leaf->face_count));
 }
 
+int32_t
+otx_baked_texture_side(
+    const otx_mapping *mapping, const otx_exemplar *exemplars)
+{
+    const double needed = exemplars->linear.width / mapping->scale *
+                          sqrt(mapping->surface->area / FILLED);
+    int32_t side = SIDE_LEAST;
+
+    while (side < needed && side < SIDE_MOST)
+        side *= 2;
+    return side;
+}
+
 otx_status
 otx_baked_texture_lay_out(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     int32_t side, otx_layout *out)
 {
-    const double texels = exemplars->linear.width / mapping->scale;
-    const double needed =
-        sqrt(mapping->surface->area * texels * texels / FILLED);
-    otx_layout_options options = {
-        .source = OTX_LAYOUT_ATLAS, .side = side ? side : SIDE_LEAST};
+    const otx_layout_options options = {
+        .source = OTX_LAYOUT_ATLAS,
+        .side = side ? side : otx_baked_texture_side(mapping, exemplars)};
 
-    while (!side && options.side < needed && options.side < SIDE_MOST)
-        options.side *= 2;
     OTX_TRY(otx_layout_build(run, mapping, &options, out));
     if (out->tile_count > 1)
         return otx_fail(

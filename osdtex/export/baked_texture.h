@@ -11,8 +11,12 @@
  * cannot say. */
 bool otx_baked_texture_is_needed(const otx_mapping *mapping);
 
-/* An atlas of one tile of `side` texels a side; 0: as fine as the exemplar is
- * on the surface, from 512 to 8192. */
+/* Texels of a side that are as fine as the exemplar is on the surface: a power
+ * of two from 512 to 8192. */
+int32_t otx_baked_texture_side(
+    const otx_mapping *mapping, const otx_exemplar *exemplars);
+
+/* An atlas of one tile of `side` texels a side; 0: by itself. */
 otx_status otx_baked_texture_lay_out(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     int32_t side, otx_layout *out);

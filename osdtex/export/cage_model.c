@@ -11,6 +11,14 @@ otx_cage_model_fvar(const otx_layout *layout)
     return layout->is_atlas ? OTX_FVAR_ALL : layout->surface->cage->fvar;
 }
 
+double
+otx_cage_model_meters(otx_receiver receiver)
+{
+    return receiver == OTX_RECEIVER_BLENDER || receiver == OTX_RECEIVER_HOUDINI
+               ? 1.0
+               : 0.01;
+}
+
 const char *
 otx_cage_model_fvar_name(otx_fvar fvar)
 {

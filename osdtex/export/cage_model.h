@@ -11,6 +11,10 @@
  * interpolated: that of the cage for its own, all-linear for an atlas. */
 otx_fvar otx_cage_model_fvar(const otx_layout *layout);
 
+/* Metres to a scene unit where nobody says: of programs that work in metres
+ * one, else what USD takes a stage to be that does not say, which is Maya's. */
+double otx_cage_model_meters(otx_receiver receiver);
+
 /* USD's word for it. */
 const char *otx_cage_model_fvar_name(otx_fvar fvar);
 

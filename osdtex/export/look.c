@@ -500,16 +500,6 @@ write_cage(const writer *w)
     return otx_obj_write(w->run, &obj, temporary, &how);
 }
 
-/* Metres to a scene unit where nobody says: of programs that work in metres
- * one, else what USD takes a stage to be that does not say, which is Maya's. */
-static double
-unit_of(otx_receiver receiver)
-{
-    return receiver == OTX_RECEIVER_BLENDER || receiver == OTX_RECEIVER_HOUDINI
-               ? 1.0
-               : 0.01;
-}
-
 /* Of a stack, where along its axis the corners of the cage are; vertices keep
  * their numbers from level to level. NULL: there is no axis. */
 static const float *
@@ -563,7 +553,7 @@ write_usda(const writer *w)
     usda.z_up = w->options->z_up;
     usda.meters_per_unit = w->options->meters_per_unit > 0.0
                                ? w->options->meters_per_unit
-                               : unit_of(w->exemplars->receiver);
+                               : otx_cage_model_meters(w->exemplars->receiver);
     OTX_TRY(otx_run_ok(w->run));
     OTX_TRY(list_comments(w, &usda.comments, &usda.comment_count));
     OTX_TRY(otx_atomic_file_add(w->run, w->set, path, &temporary));

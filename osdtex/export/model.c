@@ -6,6 +6,7 @@
 #include "export/companion_files.h"
 #include "export/corner_normals.h"
 #include "export/names.h"
+#include "export/paste_model.h"
 #include "export/texture_file.h"
 #include "export/uv_pool.h"
 #include "file/mtl.h"
@@ -525,6 +526,22 @@ flatten_pastes(
     return OSDTEX_OK;
 }
 
+/* A list of pastes, into place at once where no set is given. */
+static otx_status
+write_pastes(
+    otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
+    const otx_model_options *options, const otx_names *names, int32_t *uv_count)
+{
+    otx_model_options ours = *options;
+
+    if (!ours.set)
+        OTX_TRY(otx_atomic_file_begin(run, run->scratch, &ours.set));
+    OTX_TRY(
+        otx_paste_model_write(run, mapping, exemplars, &ours, names, uv_count));
+    return options->set ? OSDTEX_OK
+                        : otx_atomic_file_commit(run, ours.set, true);
+}
+
 static otx_status
 write_named(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
@@ -534,6 +551,8 @@ write_named(
     otx_mapping flat = *mapping;
     otx_layout layout;
 
+    if (options->pastes)
+        return write_pastes(run, mapping, exemplars, options, names, uv_count);
     if (otx_baked_texture_is_needed(mapping))
     {
         OTX_TRY(flatten_pastes(

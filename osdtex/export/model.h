@@ -16,6 +16,7 @@ typedef struct otx_model_options
     const char *path;   /* of the OBJ; ".obj" is required */
     bool normals;       /* `vn` too: see export/corner_normals.h */
     bool without_image; /* leave NAME.exr as it is; the MTL names it still */
+    bool pastes;        /* as a run-time list: see export/paste_model.h */
     int32_t resolution; /* of the texture of pastes, 0: of their density */
     /* NULL: the files are put into place at once. Else they join this set,
      * which the caller commits with whatever else belongs to the job. */
@@ -47,8 +48,8 @@ typedef struct otx_model_files
  * get a number behind it; NAME always does. See export/names.h for NAMEs that
  * readers would split.
  *
- * ARGUMENT for a path that is not an OBJ's or UVs that are not finite, IO,
- * MEMORY. */
+ * ARGUMENT for a path that is not an OBJ's or UVs that are not finite, SUPPORT
+ * for a list of pastes of a mapping that has none, IO, MEMORY. */
 otx_status otx_model_write(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_model_options *options, otx_model_files *out);

@@ -124,7 +124,7 @@ map_of(otx_mtl_material *material, otx_token word)
     } all[] = {
         {"map_Kd", &material->map_kd}, {"map_Pr", &maps->roughness},
         {"map_Pm", &maps->metalness},  {"norm", &maps->normal},
-        {"disp", &maps->height},
+        {"disp", &maps->height},       {"map_d", &material->map_d},
     };
 
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
@@ -302,6 +302,7 @@ write_material(otx_text_out *out, const otx_mtl_material *material)
     }
     otx_text_out_string(out, is_shiny(maps) ? "\nillum 2\n" : "\nillum 1\n");
     write_map(out, "map_Kd", material->map_kd);
+    write_map(out, "map_d", material->map_d);
     write_map(out, "map_Pr", maps->roughness);
     write_map(out, "map_Pm", maps->metalness);
     write_map(out, "norm", maps->normal);

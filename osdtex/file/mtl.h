@@ -16,6 +16,7 @@ typedef struct otx_mtl_material
     float diffuse[3];   /* `Kd`, 1 1 1 when absent */
     bool has_diffuse;   /* it is there; the writer always writes it */
     const char *map_kd; /* file name as written, options skipped; NULL none */
+    const char *map_d;  /* what cuts it out, likewise */
     otx_data_maps maps; /* likewise; `map_Bump` is not read, of which nobody can
                          * tell what it is, nor is there occlusion */
     int64_t line;       /* of `newmtl`; the writer does not look */
@@ -38,10 +39,10 @@ otx_status otx_mtl_parse(
  * (blanks become `_`); -1 none. Of several, the last, as readers do. */
 int32_t otx_mtl_find(const otx_mtl *mtl, const char *name);
 
-/* Writes `newmtl`, `Kd`, `illum` and `map_Kd` for each material to `path`; with
- * other maps also `map_Pr`, `map_Pm`, `norm` and `disp`, and `map_Bump`: the
- * normals, which Blender takes for it, or where there are none the height.
- * `title` is for messages (NULL: the path). */
+/* Writes `newmtl`, `Kd`, `illum`, `map_Kd` and `map_d` for each material to
+ * `path`; with other maps also `map_Pr`, `map_Pm`, `norm` and `disp`, and
+ * `map_Bump`: the normals, which Blender takes for it, or where there are none
+ * the height. `title` is for messages (NULL: the path). */
 otx_status otx_mtl_write(
     otx_run *run, const otx_mtl *mtl, const char *path, const char *title);
 

@@ -55,6 +55,10 @@ typedef struct otx_usda
     const char *interop_id; /* colorInteropID of its pixels; NULL unknown */
     const char *materialx;  /* file name of the same look; NULL none */
     otx_data_maps maps;     /* what else is known of the material */
+    /* What all materials but the first show, cut out by its alpha: they lie
+     * over one another in their order. NULL: all have the one look. */
+    const char *overlay;
+    otx_data_maps overlay_maps;
     const char *const *comments; /* [comment_count], without `#` */
     int32_t comment_count;
 } otx_usda;

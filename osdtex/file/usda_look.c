@@ -40,13 +40,22 @@ enum
     TEXTURE_COUNT = 6
 };
 
-static void
-list_textures(const otx_usda *u, texture list[TEXTURE_COUNT])
+/* One of the two looks: that of all faces, or of what lies over them. */
+typedef struct look
 {
-    const otx_data_maps *m = &u->maps;
+    const char *path; /* "MODEL/Look" */
+    const char *color;
+    const otx_data_maps *maps;
+    bool is_cut_out; /* by the alpha of its colour */
+} look;
+
+static void
+list_textures(const otx_usda *u, const look *l, texture list[TEXTURE_COUNT])
+{
+    const otx_data_maps *m = l->maps;
     const texture all[TEXTURE_COUNT] = {
-        {"Texture", u->texture, source_color_space(u->interop_id),
-         u->interop_id, "rgb", "color3f inputs:diffuseColor", false, false},
+        {"Texture", l->color, source_color_space(u->interop_id), u->interop_id,
+         "rgb", "color3f inputs:diffuseColor", false, false},
         {"Normal", m->normal, "raw", NULL, "rgb", "normal3f inputs:normal",
          true, m->normal_y_down},
         {"Roughness", m->roughness, "raw", NULL, "r", "float inputs:roughness",
@@ -114,17 +123,17 @@ write_file(otx_text_out *out, const texture *t)
 }
 
 static void
-write_texture(otx_text_out *out, const texture *t, const char *name)
+write_texture(otx_text_out *out, const texture *t, const look *l)
 {
     write_text(
         out,
         "\n        def Shader \"%\"\n"
         "        {\n"
         "            uniform token info:id = \"UsdUVTexture\"\n",
-        name, t->prim);
+        "", t->prim);
     write_file(out, t);
     write_text(
-        out, "            token inputs:sourceColorSpace = \"%\"\n", name,
+        out, "            token inputs:sourceColorSpace = \"%\"\n", "",
         t->space);
     if (t->is_normal)
         otx_text_out_string(
@@ -138,20 +147,19 @@ write_texture(otx_text_out *out, const texture *t, const char *name)
         "            token inputs:wrapS = \"clamp\"\n"
         "            token inputs:wrapT = \"clamp\"\n"
         "            float2 inputs:st.connect = "
-        "</$/Look/Reader.outputs:result>\n",
-        name, NULL);
+        "</$/Reader.outputs:result>\n",
+        l->path, NULL);
     write_text(
         out,
         strcmp(t->output, "r") == 0 ? "            float outputs:%\n"
                                     : "            float3 outputs:%\n",
-        name, t->output);
+        "", t->output);
     otx_text_out_string(out, "        }\n");
 }
 
 /* What the textures go into; roughness has a value where there is no map. */
 static void
-write_surface(
-    otx_text_out *out, const otx_usda *u, const texture *list, const char *name)
+write_surface(otx_text_out *out, const look *l, const texture *list)
 {
     otx_text_out_string(
         out, "        def Shader \"Surface\"\n"
@@ -161,14 +169,19 @@ write_surface(
     {
         if (!list[i].file)
             continue;
-        write_text(
-            out, "            %.connect = </$/Look/", name, list[i].input);
-        write_text(out, "%.outputs:", name, list[i].prim);
-        write_text(out, "%>\n", name, list[i].output);
+        write_text(out, "            %.connect = </$/", l->path, list[i].input);
+        write_text(out, "%.outputs:", l->path, list[i].prim);
+        write_text(out, "%>\n", l->path, list[i].output);
     }
-    if (!u->maps.roughness)
+    if (l->is_cut_out)
+        write_text(
+            out,
+            "            float inputs:opacity.connect = "
+            "</$/Texture.outputs:a>\n",
+            l->path, NULL);
+    if (!l->maps->roughness)
         otx_text_out_string(out, "            float inputs:roughness = 0.5\n");
-    if (u->maps.height)
+    if (l->maps->height)
         otx_text_out_string(out, "            token outputs:displacement\n");
     otx_text_out_string(
         out, "            token outputs:surface\n"
@@ -179,20 +192,20 @@ write_surface(
  */
 
 static void
-write_outputs(otx_text_out *out, const otx_usda *u, const char *name)
+write_outputs(otx_text_out *out, const look *l)
 {
-    if (u->maps.height)
+    if (l->maps->height)
         write_text(
             out,
             "        token outputs:displacement.connect = "
-            "</$/Look/Surface.outputs:displacement>\n",
-            name, NULL);
+            "</$/Surface.outputs:displacement>\n",
+            l->path, NULL);
     write_text(
         out,
         "        token outputs:surface.connect = "
-        "</$/Look/Surface.outputs:surface>\n"
+        "</$/Surface.outputs:surface>\n"
         "\n",
-        name, NULL);
+        l->path, NULL);
 }
 
 const char *
@@ -238,7 +251,8 @@ write_variants(otx_text_out *out, const otx_usda *u, const char *name)
         name, NULL);
 }
 
-/* A material of the cage is the look under a name of its own. */
+/* A material of the cage is the look under a name of its own; what lies over
+ * the first is the other look. */
 static bool
 write_materials(
     otx_run *run, otx_text_out *out, const otx_usda *u, const char *name)
@@ -252,28 +266,28 @@ write_materials(
             return false;
         write_text(
             out,
-            "\n    def Material \"%\" (\n"
-            "        prepend inherits = </$/Look>\n"
-            "    )\n    {\n    }\n",
+            u->overlay && i > 0 ? "\n    def Material \"%\" (\n"
+                                  "        prepend inherits = </$/Overlay>\n"
+                                : "\n    def Material \"%\" (\n"
+                                  "        prepend inherits = </$/Look>\n",
             name, prim);
+        otx_text_out_string(out, "    )\n    {\n    }\n");
     }
     return true;
 }
 
-bool
-otx_usda_look_write(
-    otx_run *run, otx_text_out *out, const otx_usda *u, const char *name)
+/* What is in the prim of a look, and its end. */
+static void
+write_look(otx_text_out *out, const otx_usda *u, const look *l)
 {
     texture list[TEXTURE_COUNT];
 
-    list_textures(u, list);
-    otx_text_out_string(out, "    def Material \"Look\"");
-    write_variants(out, u, name);
-    write_outputs(out, u, name);
-    write_surface(out, u, list, name);
+    list_textures(u, l, list);
+    write_outputs(out, l);
+    write_surface(out, l, list);
     for (int i = 0; i < TEXTURE_COUNT; ++i)
         if (list[i].file)
-            write_texture(out, &list[i], name);
+            write_texture(out, &list[i], l);
     otx_text_out_string(
         out, "\n        def Shader \"Reader\"\n"
              "        {\n"
@@ -283,5 +297,38 @@ otx_usda_look_write(
              "            float2 outputs:result\n"
              "        }\n"
              "    }\n");
+}
+
+/* "MODEL/Look"; NULL when memory is out. */
+static const char *
+path_of(otx_run *run, const char *name, const char *prim)
+{
+    const size_t bytes = strlen(name) + strlen(prim) + 2;
+    char *path = OTX_NEW(run->scratch, char, bytes);
+
+    if (path)
+        snprintf(path, bytes, "%s/%s", name, prim);
+    return path;
+}
+
+bool
+otx_usda_look_write(
+    otx_run *run, otx_text_out *out, const otx_usda *u, const char *name)
+{
+    const look below = {
+        path_of(run, name, "Look"), u->texture, &u->maps, false};
+    const look over = {
+        path_of(run, name, "Overlay"), u->overlay, &u->overlay_maps, true};
+
+    if (!below.path || !over.path)
+        return false;
+    otx_text_out_string(out, "    def Material \"Look\"");
+    write_variants(out, u, name);
+    write_look(out, u, &below);
+    if (u->overlay)
+    {
+        otx_text_out_string(out, "\n    def Material \"Overlay\"\n    {\n");
+        write_look(out, u, &over);
+    }
     return write_materials(run, out, u, name);
 }

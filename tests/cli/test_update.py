@@ -28,7 +28,7 @@ CHANGED = {
     "scheme": "bilinear", "boundary": "edgeOnly", "fvar": "all",
     "from": "Linear Rec.709", "to": "ACEScg", "match-space": "sRGB",
     "match-in": "lab", "wrap": "no", "tileable": "make", "show": "uv",
-    "weld": "0.1", "keep": "k.osdtex", "layer": "beauty", "normals": None, "units": "mm",
+    "weld": "0.1", "keep": "k.osdtex", "layer": "beauty", "normals": None, "pastes": None, "units": "mm",
     "up": "z", "material": "m", "map": "height=m.png", "height-range": "2",
     "normal-y": "down", "match-maps": "color,height",
     "plain": None, "displace": None, "camera": "front", "draw": "wire", "turn": "30",
