@@ -11,16 +11,18 @@ enum
     RINGS = 24,
     STEP = 2, /* rings from an angle to the next, at most */
     ANGLES = OTX_RADIAL_ANGLES,
-    FILLS = 3 /* rounds in which cells without samples take their neighbours */
+    FILLS = 3, /* rounds in which cells without samples take their neighbours */
+    MARGIN = 2 /* cells around what is open that a piece has to cover, too */
 };
 
 /* Side of a cell, texels. */
 static const double CELL = 2.0;
 /* Of the outline's radius, within which the path runs. */
-static const double BAND = 0.58;
-/* Costs in Delta E: of leaving out a cell that nothing covers yet, of a step
- * along the path, and of one to another ring. */
-static const double OPEN = 25.0, LENGTH = 0.5, BEND = 0.5;
+static const double BAND = 0.85;
+/* Costs in Delta E: of leaving out a cell that nothing covers yet, of laying
+ * one over what is covered, of a step along the path, and of one to another
+ * ring. */
+static const double OPEN = 25.0, COVERED = 1.0, LENGTH = 0.5, BEND = 0.5;
 /* From this alpha on a paste is what is seen. */
 static const double SHOWN = 0.5;
 
@@ -137,6 +139,20 @@ fill(plane *p, float *spare)
     memcpy(p->differ, spare, bytes);
 }
 
+/* What is next to open cells has to be covered as they have: slivers would be
+ * left along the feather. */
+static void
+widen(plane *p, float *spare)
+{
+    memcpy(spare, p->open, (size_t)p->side * (size_t)p->side * sizeof *spare);
+    for (int32_t y = 1; y + 1 < p->side; ++y)
+        for (int32_t x = 1; x + 1 < p->side; ++x)
+            for (int32_t k = 0; k < 9; ++k)
+                p->open[y * p->side + x] = fmaxf(
+                    p->open[y * p->side + x],
+                    spare[(y + k / 3 - 1) * p->side + x + k % 3 - 1]);
+}
+
 static otx_status
 make_plane(
     const otx_lapped *l, otx_arena *scratch, const otx_radial *outline,
@@ -156,6 +172,8 @@ make_plane(
     divide(p, count);
     for (int i = 0; i < FILLS; ++i)
         fill(p, spare);
+    for (int i = 0; i < MARGIN; ++i)
+        widen(p, spare);
     return OSDTEX_OK;
 }
 
@@ -177,15 +195,23 @@ price(const plane *p, const otx_radial *outline, double cost[ANGLES][RINGS])
     for (int32_t a = 0; a < ANGLES; ++a)
     {
         const otx_vec2 ray = otx_vec2_polar(6.283185307179586 * a / ANGLES);
-        double outside = 0.0;
+        double outside = 0.0, inside = 0.0;
 
+        for (int32_t r = 0; r < RINGS; ++r)
+        {
+            const int32_t cell =
+                cell_of(p, otx_vec2_scale(radius_of(outline, a, r), ray));
+
+            cost[a][r] = COVERED * inside;
+            inside += cell >= 0 ? 1.0 - (double)p->open[cell] : 0.0;
+        }
         for (int32_t r = RINGS - 1; r >= 0; --r)
         {
             const int32_t cell =
                 cell_of(p, otx_vec2_scale(radius_of(outline, a, r), ray));
             const float differ = cell >= 0 ? p->differ[cell] : -1.0f;
 
-            cost[a][r] = LENGTH + OPEN * outside + fmax((double)differ, 0.0);
+            cost[a][r] += LENGTH + OPEN * outside + fmax((double)differ, 0.0);
             outside += cell >= 0 ? (double)p->open[cell] : 0.0;
         }
     }

@@ -75,11 +75,11 @@ cut(paste_bench *b, otx_lapped_paste *p)
             p->pieces[0].cut->radius[(a + 1) % OTX_RADIAL_ANGLES];
 
         assert_true(p->pieces[0].cut->radius[a] <= (float)RADIUS + 1e-3f);
-        assert_true(p->pieces[0].cut->radius[a] >= 0.4f * (float)RADIUS);
-        /* Two rings of 23 in 58 % of the radius. */
+        assert_true(p->pieces[0].cut->radius[a] >= 0.14f * (float)RADIUS);
+        /* Two rings of 23 in 85 % of the radius. */
         assert_true(
             fabsf(next - p->pieces[0].cut->radius[a]) <=
-            2.001 * 0.58 * RADIUS / 23.0);
+            2.001 * 0.85 * RADIUS / 23.0);
         assert_true(
             p->pieces[0].cut->least <= p->pieces[0].cut->radius[a] &&
             p->pieces[0].cut->radius[a] <= p->pieces[0].cut->most);
@@ -155,6 +155,41 @@ what_is_open_is_not_left_open(void **state)
         p.pieces[0].cut->radius[OTX_RADIAL_ANGLES / 2], 28.0, 4.5);
 }
 
+static float
+alike(otx_vec2 at)
+{
+    (void)at;
+    return 0.0f;
+}
+
+/* Where nothing differs, no more is pasted than closes the gap and its feather.
+ */
+static void
+what_is_covered_is_not_pasted_over(void **state)
+{
+    const double gap = 12.0;
+    paste_bench *b = make_bench(*state);
+    otx_lapped_paste p = make_paste(b);
+    otx_samples *s = &b->l.samples;
+
+    cover(b, &p, alike);
+    for (int32_t i = 0; i < p.chart.face_count; ++i)
+        for (int32_t k = 0; k < otx_samples_count(s, p.chart.faces[i]); ++k)
+        {
+            const otx_sample_place place =
+                otx_samples_at(s, p.chart.faces[i], k);
+
+            if (otx_vec2_length(paste_place(&b->l, &p.chart, i, &place)) < gap)
+                s->covered[s->first[p.chart.faces[i]] + k] = 0;
+        }
+    cut(b, &p);
+    for (int32_t a = 0; a < OTX_RADIAL_ANGLES; ++a)
+    {
+        assert_true((double)p.pieces[0].cut->radius[a] >= gap + 2.0);
+        assert_true((double)p.pieces[0].cut->radius[a] <= gap + 9.0);
+    }
+}
+
 /* What is inside of the cut is covered and shows the exemplar, what is outside
  * is as it was. */
 static void
@@ -207,6 +242,7 @@ main(void)
         test_with_run(what_nothing_covers_is_pasted_to_the_outline),
         test_with_run(paths_run_where_both_look_alike),
         test_with_run(what_is_open_is_not_left_open),
+        test_with_run(what_is_covered_is_not_pasted_over),
         test_with_run(marks_are_those_of_the_cut),
     };
 
