@@ -409,26 +409,28 @@ list_features(otx_run *run, const plane *p, int32_t found, otx_features *out)
 
 /* ---- alpha ---- */
 
-/* Where an exemplar of four channels is transparent; false where it hardly is.
- */
+/* Whether there is nothing at a place of `lab`. */
 static bool
-cut_by_alpha(const plane *p, const otx_exemplar *e, uint8_t *joint)
+is_transparent(const otx_exemplar *e, int32_t index)
 {
-    const int32_t n = p->width * p->height;
+    const otx_image *from = &e->linear;
+    const double x = (index % e->lab.width + 0.5) * from->width / e->lab.width;
+    const double y =
+        (index / e->lab.width + 0.5) * from->height / e->lab.height;
+
+    return otx_image_at(from, (int32_t)x, (int32_t)y)[3] < 0.5f;
+}
+
+bool
+otx_features_are_cut_out(const otx_exemplar *e)
+{
+    const int32_t n = e->lab.width * e->lab.height;
     int32_t count = 0;
 
     if (e->linear.channels != 4 || !e->linear.pixels)
         return false;
     for (int32_t i = 0; i < n; ++i)
-    {
-        const int32_t x =
-            (int32_t)((i % p->width + 0.5) * e->linear.width / p->width);
-        const int32_t y =
-            (int32_t)((i / p->width + 0.5) * e->linear.height / p->height);
-
-        joint[i] = otx_image_at(&e->linear, x, y)[3] < 0.5f;
-        count += joint[i];
-    }
+        count += is_transparent(e, i);
     return count > 0.02 * n && count < 0.98 * n;
 }
 
@@ -445,7 +447,9 @@ otx_features_find(otx_run *run, const otx_exemplar *e, otx_features *out)
         .width = w, .height = h, .wrap_x = e->wrap_x, .wrap_y = e->wrap_y};
     out->labels = OTX_NEW(run->arena, int32_t, n);
     OTX_TRY(otx_run_ok(run));
-    out->by_alpha = cut_by_alpha(&p, e, joint);
+    out->by_alpha = otx_features_are_cut_out(e);
+    for (int32_t i = 0; out->by_alpha && i < n; ++i)
+        joint[i] = is_transparent(e, i);
     out->network = 1.0;
     if (!out->by_alpha)
         OTX_TRY(

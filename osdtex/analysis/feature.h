@@ -30,6 +30,10 @@ typedef struct otx_features
     double network; /* of what is between them that hangs together; 1: all */
 } otx_features;
 
+/* Whether alpha cuts something out of the picture: neither nearly all of it nor
+ * hardly any. */
+bool otx_features_are_cut_out(const otx_exemplar *exemplar);
+
 /* In run->arena. No feature is an answer as well. MEMORY. */
 otx_status otx_features_find(
     otx_run *run, const otx_exemplar *exemplar, otx_features *out);

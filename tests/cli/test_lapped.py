@@ -67,6 +67,16 @@ class Lapped(ProgramTest):
             self.assertEqual(struct.unpack("<4i", header[at:at + 16]),
                              (0, 0, 255, 255))
 
+    def test_auto_takes_it_for_what_alpha_cuts_out(self):
+        for picture, taken in (("leaves_cut.png", True), ("gravel_tile.png", False)):
+            result = self.run_map(
+                CAGE, EXEMPLARS / picture, "--method", "auto", "--level", "1",
+                "-n", "-v")
+            self.assert_exit(result, 0)
+            self.assertEqual(
+                "method lapped: its alpha cuts out whole things" in result.stderr,
+                taken, result.stderr)
+
     def test_what_takes_for_ever_is_refused(self):
         result = self.run_map(CAGE, PICTURE, *HOW, "--scale", "1e-4")
         self.assertNotEqual(result.returncode, 0)

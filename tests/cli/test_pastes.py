@@ -72,6 +72,24 @@ class Pastes(ProgramTest):
         usd = (self.folder / "out.usda").read_text()
         self.assertEqual(usd.count("def GeomSubset"), len(groups))
 
+    def test_another_picture_in_the_same_outlines(self):
+        """The mesh stays, and what it looks up is cut out of the other."""
+        saved = self.folder / "it.osdtex"
+        how = (*HOW, "--level", "2", "--pastes")
+        self.assert_exit(self.run_map(
+            CAGE, PICTURE, *how, "--save", saved, name="a.obj"), 0)
+        self.assert_exit(self.run_program(
+            "map", "--from", saved, CAGE, EXEMPLARS / "spots_tile.png",
+            "--pastes", "-o", self.folder / "b.obj"), 0)
+
+        def mesh(name):
+            return [line for line in (self.folder / name).read_text().splitlines()
+                    if line[:2] in ("v ", "vt", "f ", "g ")]
+
+        self.assertEqual(mesh("a.obj"), mesh("b.obj"))
+        self.assertNotEqual(
+            self.picture("a_pastes.exr"), self.picture("b_pastes.exr"))
+
     def test_maps_of_a_material_come_along(self):
         self.assert_exit(self.run_program(
             "map", CAGE, *HOW, "--level", "2", "--pastes", "--material",

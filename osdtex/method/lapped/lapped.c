@@ -185,9 +185,18 @@ map(const otx_job *job, otx_mapping *out)
 static otx_status
 applicable(const otx_job *job, otx_suitability *out)
 {
-    (void)job;
+    otx_features features;
+
     *out = (otx_suitability){
         0.3, "overlapping pieces suit any exemplar, where seams may show"};
+    if (job->exemplar_count > 1 || !otx_features_are_cut_out(job->exemplars))
+        return OSDTEX_OK;
+    OTX_TRY(otx_features_find(job->run, job->exemplars, &features));
+    /* Others would show what is transparent. */
+    if (otx_features_are_clear(&features))
+        *out = (otx_suitability){
+            0.9, "its alpha cuts out whole things, which are laid over one "
+                 "another"};
     return OSDTEX_OK;
 }
 
