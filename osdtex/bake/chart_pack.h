@@ -1,10 +1,9 @@
 /* chart_pack.h -- charts side by side on tiles.
  *
- * A packer of our own: charts are set down one after the other, the highest
- * first, on a horizon of columns that are four texels wide, each in the
- * quarter turn and the place in which it rises least [Levy02, sec. 4]. What is
- * below the horizon is lost, which packers that fill holes would use; for that
- * it is short, needs no library, and is deterministic. */
+ * A packer of our own: charts are set down one after the other, the largest
+ * first, each as a mask of cells in the eighth of a turn and at the lowest
+ * place in which no cell is taken, so that small ones fill the holes that large
+ * ones leave. It needs no library, and is deterministic. */
 #ifndef OTX_BAKE_CHART_PACK_H
 #define OTX_BAKE_CHART_PACK_H
 

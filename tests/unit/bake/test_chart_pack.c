@@ -115,11 +115,54 @@ charts_keep_their_margins(void **state)
     test_run_destroy(run);
 }
 
+/* The four edges of a square about the origin. */
+static void
+put_square(otx_vec2 *ends, double side)
+{
+    static const double corners[][2] = {
+        {-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
+
+    for (int32_t k = 0; k < 4; ++k)
+        for (int32_t e = 0; e < 2; ++e)
+            ends[2 * k + e] = (otx_vec2){
+                side * corners[(k + e) % 4][0], side * corners[(k + e) % 4][1]};
+}
+
+/* A frame that fills a tile, and what fits into it. */
+static void
+holes_are_filled(void **state)
+{
+    static const int32_t first[] = {0, 8, 12, 16, 20, 24};
+    otx_run *run = test_run_create();
+    otx_vec2 ends[2 * 24];
+    const otx_chart_rims rims = {5, first, ends};
+    otx_chart_packing packing;
+
+    (void)state;
+    put_square(ends, 10.0);
+    put_square(ends + 8, 6.0);
+    for (int32_t i = 0; i < 4; ++i)
+        put_square(ends + 16 + 8 * i, 2.0);
+    assert_int_equal(
+        otx_chart_pack(run, &rims, SIDE, MARGIN, 48.0, &packing), OSDTEX_OK);
+    assert_int_equal(packing.tile_count, 1);
+    /* Inside of the frame by both margins. */
+    for (int32_t i = 1; i < 5; ++i)
+    {
+        const otx_vec2 d =
+            otx_vec2_sub(packing.places[i].shift, packing.places[0].shift);
+
+        assert_true(fmax(fabs(d.x), fabs(d.y)) < 48.0 * (3.0 - 1.0) - MARGIN);
+    }
+    test_run_destroy(run);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(charts_keep_their_margins),
+        cmocka_unit_test(holes_are_filled),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
