@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Each command in the `sh` blocks of docs/troubleshooting.md runs.
+"""Each command in the `sh` blocks of these pages of docs/ runs.
 
     test_commands.py OSDTEX
 """
@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
 
 from program import ROOT, ProgramTest, main  # noqa: E402
 
-PAGES = ("troubleshooting.md",)
+PAGES = ("troubleshooting.md", "tutorials/painter.md")
 BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
 
 
@@ -33,7 +33,8 @@ class Commands(ProgramTest):
 
     def run_line(self, words):
         """With what goes to out/ in a folder of the test's own."""
-        (self.folder / "trouble").mkdir(exist_ok=True)
+        for folder in ("trouble", "painter"):
+            (self.folder / folder).mkdir(exist_ok=True)
         return self.run_program(*(
             w.replace("out/", f"{self.folder}/", 1)
             if w.startswith("out/") else w for w in words), cwd=ROOT)
