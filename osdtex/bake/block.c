@@ -19,7 +19,7 @@ place(otx_block *b, int32_t x, int32_t y)
 {
     const otx_mip *mip = b->mip;
     const int32_t top = mip->side - y * OTX_MIP_BLOCK;
-    const int32_t apron = otx_block_is_fitted(b) ? OTX_MIP_APRON : 0;
+    const int32_t apron = otx_block_has_apron(b) ? OTX_MIP_APRON : 0;
     const int32_t left = x * OTX_MIP_BLOCK;
 
     b->width = otx_mip_block_size(mip, x);
@@ -34,20 +34,13 @@ place(otx_block *b, int32_t x, int32_t y)
     };
 }
 
-bool
-otx_block_forget(otx_block *b, otx_arena *scratch)
+static bool
+allocate(otx_block *b, otx_arena *scratch)
 {
     b->pieces = OTX_NEW(scratch, otx_mip_facet, OTX_BLOCK_PIECES);
     for (int32_t i = 0; b->pieces && i < OTX_BLOCK_PIECES; ++i)
         b->pieces[i].id = -1;
-    return b->pieces != NULL;
-}
-
-static bool
-allocate(otx_block *b, otx_arena *scratch)
-{
-    return otx_block_forget(b, scratch) &&
-           otx_raster_begin(scratch, &b->raster) &&
+    return b->pieces && otx_raster_begin(scratch, &b->raster) &&
            otx_raster_near_begin(scratch, &b->raster, &b->near_rim) &&
            otx_raster_near_begin(scratch, &b->raster, &b->near_seam);
 }
@@ -99,14 +92,17 @@ draw_edges(
 
 bool
 otx_block_draw(
-    const otx_texel_source *source, const otx_mip *mip, int32_t x, int32_t y,
-    otx_arena *scratch, otx_block *out)
+    const otx_texel_source *source, const otx_texel_source *maps,
+    const otx_mip *mip, int32_t x, int32_t y, otx_arena *scratch,
+    otx_block *out)
 {
     const int64_t index = (int64_t)y * mip->columns + x;
     const int64_t rim = mip->near_rims.first[index];
 
     *out = (otx_block){
         .source = source,
+        .maps = maps,
+        .channels = source->channels + (maps ? maps->channels : 0),
         .mip = mip,
         .rims =
             {mip->near_rims.items + rim, mip->near_rims.first[index + 1] - rim,

@@ -23,6 +23,8 @@ typedef struct otx_block_rims
 typedef struct otx_block
 {
     const otx_texel_source *source;
+    const otx_texel_source *maps; /* shown by the same samples; NULL none */
+    int32_t channels;             /* of both, those of `maps` behind */
     const otx_mip *mip;
     int32_t width, height; /* without the apron */
     int32_t left, below;   /* of the apron; 0 at the picture's border */
@@ -35,24 +37,29 @@ typedef struct otx_block
 /* Places block (x, y), of which rows count from the top, and draws the faces,
  * rims and seams in it. False when memory is out. */
 bool otx_block_draw(
-    const otx_texel_source *source, const otx_mip *mip, int32_t x, int32_t y,
-    otx_arena *scratch, otx_block *out);
-
-/* Makes facets anew when they are met, for another source. False when memory is
- * out. */
-bool otx_block_forget(otx_block *block, otx_arena *scratch);
+    const otx_texel_source *source, const otx_texel_source *maps,
+    const otx_mip *mip, int32_t x, int32_t y, otx_arena *scratch,
+    otx_block *out);
 
 /* Where a walk from a facet to a texel position ends. */
 otx_walk otx_block_walk(
     const otx_block *block, const otx_mip_facet *placed, otx_vec2 texel);
 
-/* Whether texels are fitted to lookups. These come close to those of level 0;
- * heights must meet at all levels. */
+/* Whether colours are fitted to lookups, which come close to those of level 0.
+ */
 static inline bool
 otx_block_is_fitted(const otx_block *block)
 {
-    return block->source->kind == OTX_TEXEL_MAPS ||
-           (block->mip->level == 0 && block->source->kind == OTX_TEXEL_COLOR);
+    return block->mip->level == 0 && block->source->kind == OTX_TEXEL_COLOR;
+}
+
+/* Whether texels around it are looked at: where it is fitted, and where there
+ * are maps, of which heights must meet at all levels. */
+static inline bool
+otx_block_has_apron(const otx_block *block)
+{
+    return otx_block_is_fitted(block) || block->maps ||
+           block->source->kind == OTX_TEXEL_MAPS;
 }
 
 /* Index of a texel of the raster. */
@@ -81,7 +88,7 @@ otx_block_piece(otx_block *block, int64_t id)
 
     if (placed->id != id)
         *placed = otx_mip_facet_make(
-            block->source, block->mip, 1.0 / block->raster.n, id);
+            block->source, block->maps, block->mip, block->raster.n, id);
     return placed;
 }
 

@@ -28,7 +28,7 @@ color_across(
     }
     else if (patch != patches[other])
         return false;
-    otx_sample_at(block->source, &walk, 1.0, color);
+    otx_sample_walk(block, &walk, 1.0, color);
     return true;
 }
 
@@ -38,11 +38,11 @@ mix(otx_block *block, const otx_mip_rim *seam, double distance_sq,
     int32_t patch, otx_vec2 at, float *color)
 {
     const double t = 0.5 * (1.0 - sqrt(distance_sq) / block->mip->blend);
-    float across[OTX_IMAGE_MAX_CHANNELS];
+    float across[OTX_SAMPLE_CHANNELS];
 
     if (!(t > 0.0) || !color_across(block, seam, patch, at, across))
         return;
-    for (int32_t c = 0; c < block->source->channels; ++c)
+    for (int32_t c = 0; c < block->channels; ++c)
         color[c] = (float)((1.0 - t) * color[c] + t * across[c]);
 }
 

@@ -55,7 +55,8 @@ nearest_rim(const otx_block *block, otx_vec2 texel)
     return best;
 }
 
-/* That of a texel's cell. */
+/* That of a texel's cell. They begin at the texels that a colour without maps
+ * looks at, one cell earlier, so that maps leave it as it is. */
 static int32_t
 rim_of_cell(const otx_block *block, int32_t x, int32_t y, otx_gutter *found)
 {
@@ -63,13 +64,17 @@ rim_of_cell(const otx_block *block, int32_t x, int32_t y, otx_gutter *found)
     {
         CELL = OTX_GUTTER_CELL
     };
-    int32_t *rim = &found->rims[y / CELL * OTX_GUTTER_CELLS + x / CELL];
+    const bool is_whole = block->mip->level == 0;
+    const int32_t left = (is_whole ? 0 : block->left) - CELL;
+    const int32_t below = (is_whole ? 0 : block->below) - CELL;
+    const int32_t i = (x - left) / CELL, j = (y - below) / CELL;
+    int32_t *rim = &found->rims[j * OTX_GUTTER_CELLS + i];
 
     if (*rim == NOT_LOOKED_FOR)
         *rim = nearest_rim(
             block, otx_raster_texel(
-                       &block->raster, x / CELL * CELL + CELL / 2,
-                       y / CELL * CELL + CELL / 2));
+                       &block->raster, left + i * CELL + CELL / 2,
+                       below + j * CELL + CELL / 2));
     return *rim;
 }
 
@@ -108,7 +113,7 @@ otx_gutter_texel(
 
     if (!find_place(block, x, y, found, &walk))
     {
-        memset(out, 0, (size_t)source->channels * sizeof *out);
+        memset(out, 0, (size_t)block->channels * sizeof *out);
         return;
     }
     if (!otx_texel_is_filtered(source->kind))
@@ -116,7 +121,7 @@ otx_gutter_texel(
         otx_aov_gutter(block, x, y, &walk, out);
         return;
     }
-    otx_sample_at(source, &walk, 1.0, out);
+    otx_sample_walk(block, &walk, 1.0, out);
     if (block->near_rim.edges[otx_block_index(block, x, y)] >= 0)
         otx_crossfade_beyond(block, x, y, out);
 }

@@ -11,8 +11,8 @@
 enum
 {
     OTX_GUTTER_CELL = 8, /* texels of a cell's side */
-    OTX_GUTTER_CELLS =   /* a row */
-    (OTX_MIP_BLOCK + 2 * OTX_MIP_APRON + OTX_GUTTER_CELL - 1) / OTX_GUTTER_CELL
+    OTX_GUTTER_CELLS =   /* a row, with what an apron reaches into */
+    (OTX_MIP_BLOCK + 2 * OTX_GUTTER_CELL) / OTX_GUTTER_CELL
 };
 
 /* The rims nearest to cells of a block beyond all gutters, as far as they were

@@ -23,19 +23,32 @@ set_coordinates(const otx_mip *mip, otx_mip_facet *placed)
     }
 }
 
-/* How a whole texel is looked up, and where that takes several, a sample. */
-static void
-set_probes(const otx_show_view *show, double share, otx_mip_facet *placed)
+enum
 {
-    placed->probes =
-        otx_texture_measure(placed->texture, placed->uv_dx, placed->uv_dy);
-    placed->is_plain = placed->probes.count == 1 && placed->probes.level == 0 &&
-                       placed->probes.fraction == 0.0 &&
-                       !otx_show_is_layered(show, placed->facet.face);
-    if (!placed->is_plain)
-        placed->probes = otx_texture_measure(
-            placed->texture, otx_vec2_scale(share, placed->uv_dx),
+    MAPS_FINENESS = 2 /* data need no more: they are not seen by themselves */
+};
+
+/* How a whole texel is looked up, and where that takes several, a sample. */
+static otx_mip_lookup
+lookup_in(
+    const otx_texel_source *source, int32_t n, const otx_mip_facet *placed)
+{
+    const otx_texture *texture = otx_texel_texture(source, placed->facet.face);
+    const int32_t fineness = source->kind == OTX_TEXEL_MAPS ? MAPS_FINENESS : n;
+    const double share = 1.0 / fineness;
+    otx_mip_lookup out = {
+        .texture = texture,
+        .probes = otx_texture_measure(texture, placed->uv_dx, placed->uv_dy),
+        .fineness = fineness};
+
+    out.is_plain = out.probes.count == 1 && out.probes.level == 0 &&
+                   out.probes.fraction == 0.0 &&
+                   !otx_show_is_layered(&source->show, placed->facet.face);
+    if (!out.is_plain)
+        out.probes = otx_texture_measure(
+            texture, otx_vec2_scale(share, placed->uv_dx),
             otx_vec2_scale(share, placed->uv_dy));
+    return out;
 }
 
 /* How maps come into the frame of the texture. */
@@ -62,15 +75,14 @@ set_carry(const otx_texel_source *source, otx_mip_facet *placed)
 
 otx_mip_facet
 otx_mip_facet_make(
-    const otx_texel_source *source, const otx_mip *mip, double share,
-    int64_t id)
+    const otx_texel_source *source, const otx_texel_source *maps,
+    const otx_mip *mip, int32_t n, int64_t id)
 {
     const otx_level *leaf = otx_surface_leaf(source->layout->surface);
     const int32_t face = otx_mip_facet_face(id);
     otx_mip_facet placed = {
         .id = id,
         .chart = source->layout->chart[face],
-        .texture = otx_texel_texture(source, face),
         .facet = otx_facet_at(leaf, face, id & 0xFFFF),
     };
 
@@ -78,8 +90,10 @@ otx_mip_facet_make(
     placed.uv = otx_mip_facet_mix(source->mapping, &placed.facet, placed.at);
     placed.uv_dx = otx_mip_facet_mix(source->mapping, &placed.facet, placed.dx);
     placed.uv_dy = otx_mip_facet_mix(source->mapping, &placed.facet, placed.dy);
-    set_probes(&source->show, share, &placed);
-    if (source->show.carry)
-        set_carry(source, &placed);
+    placed.own = lookup_in(source, n, &placed);
+    if (maps)
+        placed.maps = lookup_in(maps, n, &placed);
+    if (maps || source->show.carry)
+        set_carry(maps ? maps : source, &placed);
     return placed;
 }

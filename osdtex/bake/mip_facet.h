@@ -6,18 +6,25 @@
 #include "bake/texel_source.h"
 #include "bake/walk.h"
 
+/* How a facet is looked up in a picture. */
+typedef struct otx_mip_lookup
+{
+    const otx_texture *texture; /* NULL: it is not */
+    otx_texture_probes probes;  /* of a sample */
+    int32_t fineness; /* samples to a texel's side where nothing runs through */
+    bool is_plain;    /* a whole texel is no larger than one of the picture */
+} otx_mip_lookup;
+
 typedef struct otx_mip_facet
 {
     int64_t id; /* -1 none */
     int32_t chart;
-    const otx_texture *texture;
     otx_facet facet;
     double at[3], dx[3], dy[3]; /* barycentric: at texel (0, 0), and changes */
     otx_vec2 uv, uv_dx, uv_dy;  /* likewise, in the exemplar */
-    otx_texture_probes probes;  /* of a sample */
+    otx_mip_lookup own, maps;   /* in what is baked, and in maps besides */
     otx_carry_matrix carry;     /* of maps */
     double scale, scale_dx, scale_dy; /* local, likewise */
-    bool is_plain; /* a whole texel is no larger than one of the exemplar */
 } otx_mip_facet;
 
 /* Facet `index` of a leaf face, as one number. */
@@ -33,10 +40,11 @@ otx_mip_facet_face(int64_t id)
     return (int32_t)(id >> 16);
 }
 
-/* `share`: of a texel's side, that a sample has. */
+/*   maps  looked up besides; NULL none
+ *   n     samples to a texel's side */
 otx_mip_facet otx_mip_facet_make(
-    const otx_texel_source *source, const otx_mip *mip, double share,
-    int64_t id);
+    const otx_texel_source *source, const otx_texel_source *maps,
+    const otx_mip *mip, int32_t n, int64_t id);
 
 /* The exemplar's UV at corners of a facet, weighted by barycentric coordinates
  * or their changes. */

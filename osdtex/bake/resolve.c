@@ -1,4 +1,4 @@
-/* resolve.c -- colours of texels that charts reach into. */
+/* resolve.c -- what texels show that charts reach into. */
 #include "bake/resolve.h"
 
 #include "bake/sample.h"
@@ -51,31 +51,25 @@ otx_resolve_owner(const otx_block *block, int32_t x, int32_t y, int32_t *first)
     return best;
 }
 
-/* What runs through a texel that one chart owns. */
-typedef enum texel_state
-{
-    TEXEL_WHOLE,  /* nothing, and one lookup shows it: a close view */
-    TEXEL_SMOOTH, /* nothing */
-    TEXEL_TORN    /* a seam, or a rim */
-} texel_state;
-
-/* By whether all facets in the texel agree on what is at its centre.
+/* Whether nothing runs through a texel, no seam and no rim, by whether all
+ * facets in it agree on what is at its centre; and where that is so, whether
+ * one lookup shows it all: a close view.
  *
- *   first  a sample on the texel's chart
- *   uv     out: what is at the centre, in the exemplar */
-static texel_state
-state_of(otx_block *block, int32_t x, int32_t y, int32_t first, otx_vec2 *uv)
+ *   first  a sample on the texel's chart */
+static bool
+is_smooth(otx_block *block, int32_t x, int32_t y, int32_t first, bool plain[2])
 {
     const otx_vec2 centre = otx_raster_texel(&block->raster, x, y);
     const otx_mip_facet *placed =
         otx_block_piece(block, otx_block_sample(block, x, y, first));
-    const otx_texture *texture = placed->texture;
+    const otx_texture *texture = placed->own.texture;
     const otx_image *image = &texture->pyramid.levels[0];
+    const otx_vec2 uv = otx_mip_facet_uv(placed, centre);
     const int32_t chart = placed->chart;
-    bool is_plain = placed->is_plain;
     int64_t seen = placed->id;
 
-    *uv = otx_mip_facet_uv(placed, centre);
+    plain[0] = placed->own.is_plain;
+    plain[1] = placed->maps.is_plain;
     for (int32_t s = 0; s < block->raster.n * block->raster.n; ++s)
     {
         const int64_t id = otx_block_sample(block, x, y, s);
@@ -83,19 +77,20 @@ state_of(otx_block *block, int32_t x, int32_t y, int32_t first, otx_vec2 *uv)
         if (id == seen)
             continue;
         if (id < 0)
-            return TEXEL_TORN;
+            return false;
         seen = id;
         placed = otx_block_piece(block, id);
-        is_plain = is_plain && placed->is_plain;
+        plain[0] = plain[0] && placed->own.is_plain;
+        plain[1] = plain[1] && placed->maps.is_plain;
 
-        const otx_vec2 d = otx_vec2_sub(otx_mip_facet_uv(placed, centre), *uv);
+        const otx_vec2 d = otx_vec2_sub(otx_mip_facet_uv(placed, centre), uv);
 
-        if (placed->chart != chart || placed->texture != texture ||
+        if (placed->chart != chart || placed->own.texture != texture ||
             !(fabs(d.x) * image->width < AGREED) ||
             !(fabs(d.y) * image->height < AGREED))
-            return TEXEL_TORN;
+            return false;
     }
-    return is_plain ? TEXEL_WHOLE : TEXEL_SMOOTH;
+    return true;
 }
 
 /* The facet at a place within a texel, of those that its samples have: first
@@ -119,66 +114,116 @@ piece_near(otx_block *block, int32_t x, int32_t y, otx_vec2 at)
     return otx_block_sample(block, x, y, j * n + i);
 }
 
-/* Color of one of n x n samples of a texel that `chart` owns, at `at`, on the
- * facet `id`: where that is another chart's, or none, what the facet `home` of
- * this one goes on to. */
-static void
-color_of_sample(
-    otx_block *block, int64_t id, int64_t home, int32_t chart, int32_t n,
-    otx_vec2 at, float *color)
+/* A texel that `chart` owns, and the facet that its first sample has. */
+typedef struct texel
 {
-    const otx_texel_source *source = block->source;
+    int32_t x, y, chart;
+    int64_t home;
+    bool own, maps; /* what of the block is asked for */
+} texel;
 
-    if (id >= 0 && source->layout->chart[otx_mip_facet_face(id)] == chart)
+/* All that a block shows of what is asked for, on a facet. */
+static void
+on_piece(
+    const otx_block *block, const otx_mip_facet *placed, const texel *t,
+    double share, otx_vec2 at, float *out)
+{
+    if (t->own)
         otx_sample_on_piece(
-            source, otx_block_piece(block, id), 1.0 / block->raster.n, at,
-            color);
+            block->source, placed, &placed->own, share, at, out);
+    if (t->maps)
+        otx_sample_on_piece(
+            block->maps, placed, &placed->maps, share, at,
+            out + block->source->channels);
+}
+
+/* One of n x n samples of a texel, at `at`, on the facet `id`: where that is
+ * another chart's, or none, what the home facet goes on to. */
+static void
+take_sample(
+    otx_block *block, int64_t id, const texel *t, int32_t n, otx_vec2 at,
+    float *out)
+{
+    if (id >= 0 &&
+        block->source->layout->chart[otx_mip_facet_face(id)] == t->chart)
+        on_piece(block, otx_block_piece(block, id), t, 1.0 / n, at, out);
     else
     {
         const otx_walk walk =
-            otx_block_walk(block, otx_block_piece(block, home), at);
+            otx_block_walk(block, otx_block_piece(block, t->home), at);
 
-        otx_sample_at(source, &walk, 1.0 / n, color);
+        otx_sample_walk(block, &walk, 1.0 / n, out);
     }
+}
+
+/* The mean of n x n samples. */
+static void
+take_mean(otx_block *block, const texel *t, int32_t n, float *out)
+{
+    const int32_t first = t->own ? 0 : block->source->channels;
+    const int32_t end = t->maps ? block->channels : block->source->channels;
+    float values[OTX_SAMPLE_CHANNELS];
+    double sum[OTX_SAMPLE_CHANNELS] = {0.0};
+
+    for (int32_t s = 0; s < n * n; ++s)
+    {
+        const int32_t i = s % n, j = s / n;
+        const otx_vec2 at = {
+            block->raster.origin.x + t->x + (i + 0.5) / n,
+            block->raster.origin.y + t->y + (j + 0.5) / n};
+        const int64_t id = n == block->raster.n
+                               ? otx_block_sample(block, t->x, t->y, s)
+                               : piece_near(block, t->x, t->y, at);
+
+        take_sample(block, id, t, n, at, values);
+        for (int32_t c = first; c < end; ++c)
+            sum[c] += values[c];
+    }
+    for (int32_t c = first; c < end; ++c)
+        out[c] = (float)(sum[c] / (n * n));
+}
+
+/* What is asked for of a texel that nothing runs through. */
+static void
+take_smooth(
+    otx_block *block, const texel *t, bool plain, int32_t fineness, float *out)
+{
+    if (plain)
+        on_piece(
+            block, otx_block_piece(block, t->home), t, 1.0,
+            otx_raster_texel(&block->raster, t->x, t->y), out);
+    else
+        take_mean(block, t, fineness, out);
 }
 
 /* Where a seam runs through a texel more samples are taken, so that each side
  * has its share. */
 void
-otx_resolve_color(
+otx_resolve_texel(
     otx_block *block, int32_t x, int32_t y, int32_t chart, int32_t first,
     float *out)
 {
-    otx_vec2 uv;
-    const otx_texel_source *source = block->source;
-    const texel_state state = state_of(block, x, y, first, &uv);
-    const int32_t n =
-        state == TEXEL_TORN ? OTX_BLOCK_SAMPLES_MAX : block->raster.n;
     const int64_t home = otx_block_sample(block, x, y, first);
-    float color[OTX_IMAGE_MAX_CHANNELS];
-    double sum[OTX_IMAGE_MAX_CHANNELS] = {0.0};
+    texel t = {x, y, chart, home, true, block->maps != NULL};
+    bool plain[2];
 
-    if (state == TEXEL_WHOLE)
+    if (!is_smooth(block, x, y, first, plain))
     {
-        otx_sample_on_piece(
-            source, otx_block_piece(block, home), 1.0,
-            otx_raster_texel(&block->raster, x, y), out);
+        take_mean(block, &t, OTX_BLOCK_SAMPLES_MAX, out);
         return;
     }
-    for (int32_t s = 0; s < n * n; ++s)
-    {
-        const int32_t i = s % n, j = s / n;
-        const otx_vec2 at = {
-            block->raster.origin.x + x + (i + 0.5) / n,
-            block->raster.origin.y + y + (j + 0.5) / n};
-        const int64_t id = n == block->raster.n
-                               ? otx_block_sample(block, x, y, s)
-                               : piece_near(block, x, y, at);
 
-        color_of_sample(block, id, home, chart, n, at, color);
-        for (int32_t c = 0; c < source->channels; ++c)
-            sum[c] += color[c];
+    const otx_mip_facet *placed = otx_block_piece(block, home);
+    const int32_t own = placed->own.fineness, maps = placed->maps.fineness;
+
+    if (!t.maps || (plain[0] == plain[1] && (plain[0] || own == maps)))
+    {
+        take_smooth(block, &t, plain[0], own, out);
+        return;
     }
-    for (int32_t c = 0; c < source->channels; ++c)
-        out[c] = (float)(sum[c] / (n * n));
+    t.maps = false;
+    take_smooth(block, &t, plain[0], own, out);
+    t.own = false;
+    t.maps = true;
+    take_smooth(block, &t, plain[1], maps, out);
 }

@@ -1,4 +1,4 @@
-/* resolve.h -- colours of texels that charts reach into.
+/* resolve.h -- what texels show that charts reach into.
  *
  * A texel is the mean of n x n samples. One that several charts reach into
  * belongs to the chart with most samples; the others' samples are taken from
@@ -13,11 +13,11 @@
 int32_t
 otx_resolve_owner(const otx_block *block, int32_t x, int32_t y, int32_t *first);
 
-/* Color of a texel.
+/* What a texel shows: all channels of the block.
  *
  *   chart  its owner
  *   first  a sample that has it */
-void otx_resolve_color(
+void otx_resolve_texel(
     otx_block *block, int32_t x, int32_t y, int32_t chart, int32_t first,
     float *out);
 

@@ -1,4 +1,4 @@
-/* sample.c -- colours of samples, each filtered over its share of a texel. */
+/* sample.c -- what samples show, each filtered over its share of a texel. */
 #include "bake/sample.h"
 
 void

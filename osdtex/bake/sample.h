@@ -1,32 +1,38 @@
-/* sample.h -- colours of samples, each filtered over its share of a texel. */
+/* sample.h -- what samples show, each filtered over its share of a texel. */
 #ifndef OTX_BAKE_SAMPLE_H
 #define OTX_BAKE_SAMPLE_H
 
-#include "bake/mip_facet.h"
+#include "bake/block.h"
 
-/* A lookup with all channels that are baked: a picture without alpha is opaque
- * beside one that has it. */
-static inline void
-otx_sample_probe(
-    const otx_texel_source *source, const otx_texture *texture,
-    const otx_texture_probes *probes, otx_vec2 uv, float *color)
+enum
 {
-    otx_texture_probe(texture, probes, uv, color);
-    if (texture->pyramid.levels[0].channels < source->channels)
-        color[3] = 1.0f;
-}
+    OTX_SAMPLE_CHANNELS = 2 * OTX_IMAGE_MAX_CHANNELS /* of a block, at most */
+};
 
-/* At a place that a walk came to. */
+/* What a source shows at a place that a walk came to. */
 void otx_sample_at(
     const otx_texel_source *source, const otx_walk *walk, double share,
     float *color);
 
-/* At a texel position on a facet that was made with this share. Of a face with
- * one lookup the probes are the same all over the facet. */
+/* The same of all that a block shows. */
+static inline void
+otx_sample_walk(
+    const otx_block *block, const otx_walk *walk, double share, float *out)
+{
+    otx_sample_at(block->source, walk, share, out);
+    if (block->maps)
+        otx_sample_at(block->maps, walk, share, out + block->source->channels);
+}
+
+/* What a source shows at a texel position on a facet. Of a face with one lookup
+ * the probes are the same all over the facet.
+ *
+ *   lookup  the facet's, in the source
+ *   share   of a texel's side, that is asked for; the lookup has its own */
 static inline void
 otx_sample_on_piece(
-    const otx_texel_source *source, const otx_mip_facet *placed, double share,
-    otx_vec2 at, float *color)
+    const otx_texel_source *source, const otx_mip_facet *placed,
+    const otx_mip_lookup *lookup, double share, otx_vec2 at, float *color)
 {
     if (otx_show_is_layered(&source->show, placed->facet.face))
     {
@@ -35,9 +41,12 @@ otx_sample_on_piece(
         otx_sample_at(source, &walk, share, color);
         return;
     }
-    otx_sample_probe(
-        source, placed->texture, &placed->probes, otx_mip_facet_uv(placed, at),
-        color);
+    otx_texture_probe(
+        lookup->texture, &lookup->probes, otx_mip_facet_uv(placed, at), color);
+    /* All channels that are baked: a picture without alpha is opaque beside one
+     * that has it. */
+    if (lookup->texture->pyramid.levels[0].channels < source->channels)
+        color[3] = 1.0f;
     if (source->show.carry)
         otx_carry_values(
             source->show.carry, &placed->carry,

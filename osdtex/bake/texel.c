@@ -9,6 +9,7 @@
 #include "bake/crossfade.h"
 #include "bake/gutter.h"
 #include "bake/resolve.h"
+#include "bake/sample.h"
 #include "bake/seam_fit.h"
 
 #include <string.h>
@@ -23,29 +24,47 @@ typedef struct picture
 {
     otx_block block;
     float *pixels, *sharp; /* of the raster; those that are sharpened */
+    float *values;         /* of the raster: of maps besides */
     int32_t *owners;       /* likewise: charts, -1 beyond the rims */
     otx_gutter beyond;
 } picture;
 
 static void
-shade_texel(picture *p, int32_t x, int32_t y)
+resolve(picture *p, int32_t x, int32_t y, float *out)
 {
     otx_block *block = &p->block;
-    const size_t i = otx_block_index(block, x, y);
-    float *out = p->pixels + i * (size_t)block->source->channels;
     int32_t first;
     const int32_t chart = otx_resolve_owner(block, x, y, &first);
 
-    p->owners[i] = chart;
+    p->owners[otx_block_index(block, x, y)] = chart;
     if (chart < 0)
         otx_gutter_texel(block, x, y, &p->beyond, out);
     else if (otx_texel_is_filtered(block->source->kind))
     {
-        otx_resolve_color(block, x, y, chart, first, out);
+        otx_resolve_texel(block, x, y, chart, first, out);
         otx_crossfade_inside(block, x, y, first, out);
     }
     else
         otx_aov_inside(block, x, y, first, out);
+}
+
+static void
+shade_texel(picture *p, int32_t x, int32_t y)
+{
+    const otx_block *block = &p->block;
+    const size_t i = otx_block_index(block, x, y);
+    const size_t own = (size_t)block->source->channels;
+    const size_t maps = (size_t)block->channels - own;
+    float out[OTX_SAMPLE_CHANNELS];
+
+    if (maps == 0)
+    {
+        resolve(p, x, y, p->pixels + i * own);
+        return;
+    }
+    resolve(p, x, y, out);
+    memcpy(p->pixels + i * own, out, own * sizeof *out);
+    memcpy(p->values + i * maps, out + own, maps * sizeof *out);
 }
 
 /* Whether a texel is of the block, or of its apron and looked at: by the
@@ -109,14 +128,19 @@ fit_to_lookups(const picture *p, float *pixels)
 static bool
 allocate(otx_arena *scratch, picture *p)
 {
+    const otx_block *block = &p->block;
     const size_t texels =
-        (size_t)p->block.raster.width * (size_t)p->block.raster.height;
-    const size_t values = texels * (size_t)p->block.source->channels;
+        (size_t)block->raster.width * (size_t)block->raster.height;
+    const size_t values = texels * (size_t)block->source->channels;
 
     p->owners = OTX_NEW(scratch, int32_t, texels);
     p->pixels = OTX_ZNEW(scratch, float, values);
-    p->sharp = OTX_NEW(scratch, float, values);
-    return p->owners && p->pixels && p->sharp;
+    p->sharp = OTX_NEW(scratch, float, otx_block_is_fitted(block) ? values : 1);
+    p->values =
+        block->maps
+            ? OTX_ZNEW(scratch, float, texels *(size_t)block->maps->channels)
+            : p->pixels;
+    return p->owners && p->pixels && p->sharp && p->values;
 }
 
 /* Values of a texel that was shaded, each kind into its plane.
@@ -149,7 +173,7 @@ weld_heights(const otx_map_source *maps, const picture *p, otx_arena *scratch)
     const int32_t width = block->raster.width, height = block->raster.height;
     const size_t texels = (size_t)width * (size_t)height;
     float *heights = OTX_NEW(scratch, float, texels);
-    float *from = p->pixels + maps->carry.height;
+    float *from = p->values + maps->carry.height;
     const otx_sharpen_grid grid = {width, height, 1, heights, p->owners};
     otx_seam_fit_edge edge = {.rim = -1};
     otx_show_view show = maps->texels.show;
@@ -178,32 +202,15 @@ weld_heights(const otx_map_source *maps, const picture *p, otx_arena *scratch)
     return true;
 }
 
-/* What the maps are baked from: the block as it is drawn, or where their rims
- * are fitted and its are not, with what is around it. */
+/* What texels show of maps, into the planes. False when memory is out. */
 static bool
-prepare_maps(
-    const otx_map_source *maps, const otx_block *drawn, int32_t x, int32_t y,
-    otx_arena *scratch, otx_block *out)
-{
-    if (otx_map_source_welds(maps) && !otx_block_is_fitted(drawn))
-        return otx_block_draw(&maps->texels, drawn->mip, x, y, scratch, out);
-    *out = *drawn;
-    out->source = &maps->texels;
-    return otx_block_forget(out, scratch);
-}
-
-/* The maps of a block whose faces are drawn. */
-static bool
-shade_maps(
-    const otx_map_source *maps, picture *pic, otx_arena *scratch,
+finish_maps(
+    const otx_map_source *maps, const picture *p, otx_arena *scratch,
     float *const planes[OTX_COMPANION_COUNT])
 {
-    const otx_block *block = &pic->block;
+    const otx_block *block = &p->block;
 
-    if (!allocate(scratch, pic))
-        return false;
-    shade(pic);
-    if (otx_map_source_welds(maps) && !weld_heights(maps, pic, scratch))
+    if (otx_map_source_welds(maps) && !weld_heights(maps, p, scratch))
         return false;
     for (int32_t y = 0; y < block->height; ++y)
         for (int32_t x = 0; x < block->width; ++x)
@@ -212,24 +219,27 @@ shade_maps(
 
             hand_out(
                 maps,
-                pic->pixels + otx_block_index(block, i, j) *
-                                  (size_t)maps->texels.channels,
+                p->values + otx_block_index(block, i, j) *
+                                (size_t)maps->texels.channels,
                 (size_t)y * (size_t)block->width + (size_t)x, planes);
         }
     return true;
 }
 
-/* The maps of a block that is drawn for the colour: what lies under the samples
- * is the same. */
-static bool
-bake_maps(
-    const otx_map_source *maps, const otx_block *drawn, int32_t column,
-    int32_t row, otx_arena *scratch, float *const planes[OTX_COMPANION_COUNT])
+/* Texels as they are, without the apron. */
+static void
+copy_inside(const picture *p, float *pixels)
 {
-    picture p = {.beyond = otx_gutter_begin()};
+    const otx_block *block = &p->block;
+    const size_t channels = (size_t)block->source->channels;
+    const size_t row = (size_t)block->width * channels;
 
-    return prepare_maps(maps, drawn, column, row, scratch, &p.block) &&
-           shade_maps(maps, &p, scratch, planes);
+    for (int32_t y = 0; y < block->height; ++y)
+        memcpy(
+            pixels + (size_t)y * row,
+            p->pixels + otx_block_index(block, block->left, y + block->below) *
+                            channels,
+            row * sizeof *pixels);
 }
 
 bool
@@ -239,8 +249,11 @@ otx_texel_bake_maps(
 {
     picture p = {.beyond = otx_gutter_begin()};
 
-    return otx_block_draw(&maps->texels, mip, x, y, scratch, &p.block) &&
-           shade_maps(maps, &p, scratch, planes);
+    if (!otx_block_draw(&maps->texels, NULL, mip, x, y, scratch, &p.block) ||
+        !allocate(scratch, &p))
+        return false;
+    shade(&p);
+    return finish_maps(maps, &p, scratch, planes);
 }
 
 bool
@@ -251,17 +264,15 @@ otx_texel_bake(
 {
     picture p = {.beyond = otx_gutter_begin()};
 
-    if (!otx_block_draw(source, mip, x, y, scratch, &p.block) ||
+    if (!otx_block_draw(
+            source, maps ? &maps->texels : NULL, mip, x, y, scratch,
+            &p.block) ||
         !allocate(scratch, &p))
         return false;
     shade(&p);
-    /* Only texels that are fitted have an apron. */
     if (otx_block_is_fitted(&p.block))
         fit_to_lookups(&p, pixels);
     else
-        memcpy(
-            pixels, p.pixels,
-            (size_t)p.block.width * (size_t)p.block.height *
-                (size_t)source->channels * sizeof *pixels);
-    return !maps || bake_maps(maps, &p.block, x, y, scratch, planes);
+        copy_inside(&p, pixels);
+    return !maps || finish_maps(maps, &p, scratch, planes);
 }

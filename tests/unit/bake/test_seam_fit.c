@@ -63,8 +63,8 @@ make_trial(otx_run *run, bool torn)
             run, run->arena, &t->layout, 0, &t->mip.rims, &t->mip.rim_count),
         OSDTEX_OK);
     assert_int_equal(otx_mip_build(run, run->arena, &t->mip), OSDTEX_OK);
-    assert_true(
-        otx_block_draw(&t->bake.source, &t->mip, 0, 0, run->arena, &t->block));
+    assert_true(otx_block_draw(
+        &t->bake.source, NULL, &t->mip, 0, 0, run->arena, &t->block));
     assert_int_equal(t->block.raster.width, SIDE);
     return t;
 }
