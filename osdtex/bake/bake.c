@@ -13,7 +13,6 @@ static const char STAGE[] = "bake";
 
 enum
 {
-    BATCH = OTX_BAKE_SLOTS / 2,
     BLOCK_TEXELS = OTX_MIP_BLOCK * OTX_MIP_BLOCK
 };
 
@@ -31,6 +30,7 @@ typedef struct job
     const otx_mip *mip;
     const otx_bake_sink *sink;
     int32_t level_count; /* that are baked */
+    int32_t batch;       /* blocks of one, at most */
     batch done, next;
 } job;
 
@@ -167,7 +167,7 @@ bake_page(otx_run *run, job *j)
         const int64_t left = blocks - first;
 
         j->next.first = first;
-        j->next.count = left < BATCH ? (int32_t)left : BATCH;
+        j->next.count = left < j->batch ? (int32_t)left : j->batch;
         OTX_TRY(otx_progress(run, STAGE, fraction_of(j, first)));
         OTX_TRY(run_batch(run, j));
         first += j->next.count;
@@ -199,7 +199,8 @@ bake_levels(
     job *j = OTX_ZNEW(run->scratch, job, 1);
 
     OTX_TRY(otx_run_ok(run));
-    j->next.slot = BATCH;
+    j->batch = otx_bake_slots(bake) / 2;
+    j->next.slot = j->batch;
     j->bake = bake;
     j->sink = sink;
     j->mip = &mip;
@@ -221,6 +222,19 @@ bake_levels(
         otx_arena_release(run->scratch, mark);
     }
     return OSDTEX_OK;
+}
+
+int32_t
+otx_bake_slots(const otx_bake *bake)
+{
+    const int32_t own = bake->source.channels;
+    const int32_t maps = bake->maps.texels.channels;
+
+    if (bake->maps_alone || maps == 0)
+        return OTX_BAKE_SLOTS;
+    /* Heights are as wide as two others. */
+    return OTX_BAKE_SLOTS / 2 * own /
+           (own + maps + otx_map_source_welds(&bake->maps)) * 2;
 }
 
 otx_status

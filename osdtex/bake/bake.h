@@ -10,7 +10,7 @@
 
 enum
 {
-    OTX_BAKE_SLOTS = 128 /* blocks that are taken and not yet put */
+    OTX_BAKE_SLOTS = 128 /* blocks that are taken and not yet put, at most */
 };
 
 /* A block of a level; y counts from the top, rows of pixels from the bottom. */
@@ -74,6 +74,10 @@ typedef struct otx_bake
 otx_status otx_bake_create(
     otx_run *run, const otx_mapping *mapping, const otx_exemplar *exemplars,
     const otx_layout *layout, const otx_bake_options *options, otx_bake *out);
+
+/* How many blocks are: with maps fewer, so that all maps together take what the
+ * colour does alone. */
+int32_t otx_bake_slots(const otx_bake *bake);
 
 /* Bakes the layout's tile number `tile` (its index), each level by itself. The
  * same bits for any number of threads. CANCELLED, MEMORY, what the sink

@@ -40,7 +40,8 @@ allocate(otx_block *b, otx_arena *scratch)
     b->pieces = OTX_NEW(scratch, otx_mip_facet, OTX_BLOCK_PIECES);
     for (int32_t i = 0; b->pieces && i < OTX_BLOCK_PIECES; ++i)
         b->pieces[i].id = -1;
-    return b->pieces && otx_raster_begin(scratch, &b->raster) &&
+    return b->pieces && otx_beyond_begin(scratch, &b->beyond) &&
+           otx_raster_begin(scratch, &b->raster) &&
            otx_raster_near_begin(scratch, &b->raster, &b->near_rim) &&
            otx_raster_near_begin(scratch, &b->raster, &b->near_seam);
 }
@@ -119,13 +120,23 @@ otx_block_draw(
     return true;
 }
 
+const otx_mip_facet *
+otx_block_beyond(otx_block *block, const otx_mip_facet *placed, otx_vec2 texel)
+{
+    const otx_beyond_scene scene = {
+        block->source, block->maps, block->raster.n};
+
+    return otx_beyond_find(&block->beyond, &scene, placed, texel, STEPS);
+}
+
 otx_walk
-otx_block_walk(
-    const otx_block *block, const otx_mip_facet *placed, otx_vec2 texel)
+otx_block_walk(otx_block *block, const otx_mip_facet *placed, otx_vec2 texel)
 {
     const otx_layout *layout = block->source->layout;
-    otx_walk walk = otx_mip_facet_place(placed, texel);
+    const otx_mip_facet *beyond = otx_block_beyond(block, placed, texel);
+    otx_walk walk = otx_mip_facet_place(beyond ? beyond : placed, texel);
 
-    otx_walk_on(layout->surface, layout->covered, STEPS, &walk);
+    if (!beyond)
+        otx_walk_on(layout->surface, layout->covered, STEPS, &walk);
     return walk;
 }

@@ -4,6 +4,7 @@
 
 #include "bake/mip_facet.h"
 #include "bake/raster.h"
+#include "bake/beyond.h"
 
 enum
 {
@@ -31,6 +32,7 @@ typedef struct otx_block
     otx_raster raster;     /* with it */
     otx_raster_near near_rim, near_seam;
     otx_mip_facet *pieces; /* [OTX_BLOCK_PIECES], by hash of their id */
+    otx_beyond beyond;     /* what they go on to */
     otx_block_rims rims;
 } otx_block;
 
@@ -42,8 +44,13 @@ bool otx_block_draw(
     otx_block *out);
 
 /* Where a walk from a facet to a texel position ends. */
-otx_walk otx_block_walk(
-    const otx_block *block, const otx_mip_facet *placed, otx_vec2 texel);
+otx_walk
+otx_block_walk(otx_block *block, const otx_mip_facet *placed, otx_vec2 texel);
+
+/* The facet that it ends in, unfolded; NULL where the surface ends before.
+ * Holds until the next call. */
+const otx_mip_facet *
+otx_block_beyond(otx_block *block, const otx_mip_facet *placed, otx_vec2 texel);
 
 /* Whether colours are fitted to lookups, which come close to those of level 0.
  */

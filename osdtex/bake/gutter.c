@@ -78,50 +78,74 @@ rim_of_cell(const otx_block *block, int32_t x, int32_t y, otx_gutter *found)
     return *rim;
 }
 
-/* What a texel shows; false when there is nothing. */
-static bool
-find_place(
-    otx_block *block, int32_t x, int32_t y, otx_gutter *found, otx_walk *out)
+/* A texel beyond the rims: the facet of the rim that it continues, and the
+ * position on it or beyond. */
+typedef struct place
+{
+    const otx_mip_facet *rim; /* NULL: nothing is there */
+    otx_vec2 at;
+    bool is_near; /* beyond: it goes on from the rim */
+} place;
+
+static place
+find_place(otx_block *block, int32_t x, int32_t y, otx_gutter *found)
 {
     const otx_vec2 at = otx_raster_texel(&block->raster, x, y);
     const otx_mip_rim *rims = block->mip->rims;
     const int32_t near = block->near_rim.edges[otx_block_index(block, x, y)];
+    const int32_t far = near >= 0 ? -1 : rim_of_cell(block, x, y, found);
 
     if (near >= 0)
-    {
-        *out =
-            otx_block_walk(block, otx_block_rim_piece(block, &rims[near]), at);
-        return true;
-    }
-
-    const int32_t far = rim_of_cell(block, x, y, found);
-
+        return (place){otx_block_rim_piece(block, &rims[near]), at, true};
     if (far < 0)
-        return false;
-    *out = otx_mip_facet_place(
-        otx_block_rim_piece(block, &rims[far]),
-        nearest_on(block->mip, far, at));
-    return true;
+        return (place){0};
+    return (place){
+        otx_block_rim_piece(block, &rims[far]), nearest_on(block->mip, far, at),
+        false};
+}
+
+static otx_walk
+walk_to(otx_block *block, const place *p)
+{
+    return p->is_near ? otx_block_walk(block, p->rim, p->at)
+                      : otx_mip_facet_place(p->rim, p->at);
+}
+
+/* What is there of colours and maps. */
+static void
+sample(otx_block *block, const place *p, float *out)
+{
+    const otx_mip_facet *facet =
+        p->is_near ? otx_block_beyond(block, p->rim, p->at) : p->rim;
+
+    if (facet)
+        otx_sample_texel(block, facet, p->at, out);
+    else
+    {
+        const otx_walk walk = walk_to(block, p);
+
+        otx_sample_walk(block, &walk, 1.0, out);
+    }
 }
 
 void
 otx_gutter_texel(
     otx_block *block, int32_t x, int32_t y, otx_gutter *found, float *out)
 {
-    const otx_texel_source *source = block->source;
-    otx_walk walk;
+    const place p = find_place(block, x, y, found);
 
-    if (!find_place(block, x, y, found, &walk))
-    {
+    if (!p.rim)
         memset(out, 0, (size_t)block->channels * sizeof *out);
-        return;
-    }
-    if (!otx_texel_is_filtered(source->kind))
+    else if (!otx_texel_is_filtered(block->source->kind))
     {
+        const otx_walk walk = walk_to(block, &p);
+
         otx_aov_gutter(block, x, y, &walk, out);
-        return;
     }
-    otx_sample_walk(block, &walk, 1.0, out);
-    if (block->near_rim.edges[otx_block_index(block, x, y)] >= 0)
-        otx_crossfade_beyond(block, x, y, out);
+    else
+    {
+        sample(block, &p, out);
+        if (p.is_near)
+            otx_crossfade_beyond(block, x, y, out);
+    }
 }

@@ -38,16 +38,34 @@ lookup_in(
     const double share = 1.0 / fineness;
     otx_mip_lookup out = {
         .texture = texture,
-        .probes = otx_texture_measure(texture, placed->uv_dx, placed->uv_dy),
+        .whole = otx_texture_measure(texture, placed->uv_dx, placed->uv_dy),
         .fineness = fineness};
 
-    out.is_plain = out.probes.count == 1 && out.probes.level == 0 &&
-                   out.probes.fraction == 0.0 &&
+    out.is_plain = out.whole.count == 1 && out.whole.level == 0 &&
+                   out.whole.fraction == 0.0 &&
                    !otx_show_is_layered(&source->show, placed->facet.face);
-    if (!out.is_plain)
-        out.probes = otx_texture_measure(
-            texture, otx_vec2_scale(share, placed->uv_dx),
-            otx_vec2_scale(share, placed->uv_dy));
+    out.probes = out.is_plain
+                     ? out.whole
+                     : otx_texture_measure(
+                           texture, otx_vec2_scale(share, placed->uv_dx),
+                           otx_vec2_scale(share, placed->uv_dy));
+    return out;
+}
+
+/* That of maps: the colour's, where they are as large. */
+static otx_mip_lookup
+maps_lookup(
+    const otx_texel_source *maps, int32_t n, const otx_mip_facet *placed)
+{
+    const otx_texture *texture = otx_texel_texture(maps, placed->facet.face);
+    const otx_image *image = &texture->pyramid.levels[0];
+    const otx_image *own = &placed->own.texture->pyramid.levels[0];
+    otx_mip_lookup out = placed->own;
+
+    if (own->width != image->width || own->height != image->height ||
+        !(out.is_plain || n == MAPS_FINENESS))
+        return lookup_in(maps, n, placed);
+    out.texture = texture;
     return out;
 }
 
@@ -73,27 +91,56 @@ set_carry(const otx_texel_source *source, otx_mip_facet *placed)
     placed->scale_dy = otx_carry_scale(carry, corners, placed->dy);
 }
 
+/* All that follows from the coordinates. */
+static void
+finish(
+    const otx_texel_source *source, const otx_texel_source *maps, int32_t n,
+    otx_mip_facet *placed)
+{
+    const otx_mapping *mapping = source->mapping;
+
+    placed->chart = source->layout->chart[placed->facet.face];
+    placed->uv = otx_mip_facet_mix(mapping, &placed->facet, placed->at);
+    placed->uv_dx = otx_mip_facet_mix(mapping, &placed->facet, placed->dx);
+    placed->uv_dy = otx_mip_facet_mix(mapping, &placed->facet, placed->dy);
+    placed->own = lookup_in(source, n, placed);
+    if (maps)
+        placed->maps = maps_lookup(maps, n, placed);
+    if (maps || source->show.carry)
+        set_carry(maps ? maps : source, placed);
+}
+
 otx_mip_facet
 otx_mip_facet_make(
     const otx_texel_source *source, const otx_texel_source *maps,
     const otx_mip *mip, int32_t n, int64_t id)
 {
     const otx_level *leaf = otx_surface_leaf(source->layout->surface);
-    const int32_t face = otx_mip_facet_face(id);
     otx_mip_facet placed = {
         .id = id,
-        .chart = source->layout->chart[face],
-        .facet = otx_facet_at(leaf, face, id & 0xFFFF),
+        .facet = otx_facet_at(leaf, otx_mip_facet_face(id), id & 0xFFFF),
     };
 
     set_coordinates(mip, &placed);
-    placed.uv = otx_mip_facet_mix(source->mapping, &placed.facet, placed.at);
-    placed.uv_dx = otx_mip_facet_mix(source->mapping, &placed.facet, placed.dx);
-    placed.uv_dy = otx_mip_facet_mix(source->mapping, &placed.facet, placed.dy);
-    placed.own = lookup_in(source, n, &placed);
-    if (maps)
-        placed.maps = lookup_in(maps, n, &placed);
-    if (maps || source->show.carry)
-        set_carry(maps ? maps : source, &placed);
+    finish(source, maps, n, &placed);
+    return placed;
+}
+
+otx_mip_facet
+otx_mip_facet_of_walk(
+    const otx_texel_source *source, const otx_texel_source *maps, int32_t n,
+    const otx_walk *walk)
+{
+    otx_mip_facet placed = {
+        .id = otx_mip_facet_id(walk->facet.face, walk->facet.index),
+        .facet = walk->facet};
+
+    for (int k = 0; k < 3; ++k)
+    {
+        placed.at[k] = walk->at[k];
+        placed.dx[k] = walk->dx[k];
+        placed.dy[k] = walk->dy[k];
+    }
+    finish(source, maps, n, &placed);
     return placed;
 }

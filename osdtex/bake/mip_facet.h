@@ -10,6 +10,7 @@
 typedef struct otx_mip_lookup
 {
     const otx_texture *texture; /* NULL: it is not */
+    otx_texture_probes whole;   /* of a texel */
     otx_texture_probes probes;  /* of a sample */
     int32_t fineness; /* samples to a texel's side where nothing runs through */
     bool is_plain;    /* a whole texel is no larger than one of the picture */
@@ -45,6 +46,11 @@ otx_mip_facet_face(int64_t id)
 otx_mip_facet otx_mip_facet_make(
     const otx_texel_source *source, const otx_texel_source *maps,
     const otx_mip *mip, int32_t n, int64_t id);
+
+/* That of a place: one that a walk comes to for texel (0, 0). */
+otx_mip_facet otx_mip_facet_of_walk(
+    const otx_texel_source *source, const otx_texel_source *maps, int32_t n,
+    const otx_walk *walk);
 
 /* The exemplar's UV at corners of a facet, weighted by barycentric coordinates
  * or their changes. */

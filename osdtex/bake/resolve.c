@@ -130,10 +130,11 @@ on_piece(
 {
     if (t->own)
         otx_sample_on_piece(
-            block->source, placed, &placed->own, share, at, out);
+            block->source, placed, &placed->own, &placed->own.probes, share, at,
+            out);
     if (t->maps)
         otx_sample_on_piece(
-            block->maps, placed, &placed->maps, share, at,
+            block->maps, placed, &placed->maps, &placed->maps.probes, share, at,
             out + block->source->channels);
 }
 

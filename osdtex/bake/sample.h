@@ -28,11 +28,13 @@ otx_sample_walk(
  * the probes are the same all over the facet.
  *
  *   lookup  the facet's, in the source
- *   share   of a texel's side, that is asked for; the lookup has its own */
+ *   probes  the lookup's, of a sample or of a texel
+ *   share   of a texel's side, that they are about */
 static inline void
 otx_sample_on_piece(
     const otx_texel_source *source, const otx_mip_facet *placed,
-    const otx_mip_lookup *lookup, double share, otx_vec2 at, float *color)
+    const otx_mip_lookup *lookup, const otx_texture_probes *probes,
+    double share, otx_vec2 at, float *color)
 {
     if (otx_show_is_layered(&source->show, placed->facet.face))
     {
@@ -42,7 +44,7 @@ otx_sample_on_piece(
         return;
     }
     otx_texture_probe(
-        lookup->texture, &lookup->probes, otx_mip_facet_uv(placed, at), color);
+        lookup->texture, probes, otx_mip_facet_uv(placed, at), color);
     /* All channels that are baked: a picture without alpha is opaque beside one
      * that has it. */
     if (lookup->texture->pyramid.levels[0].channels < source->channels)
@@ -52,6 +54,20 @@ otx_sample_on_piece(
             source->show.carry, &placed->carry,
             placed->scale + at.x * placed->scale_dx + at.y * placed->scale_dy,
             otx_source_of(source->mapping, placed->facet.face), color);
+}
+
+/* All that a block shows in a texel at a position on a facet. */
+static inline void
+otx_sample_texel(
+    const otx_block *block, const otx_mip_facet *placed, otx_vec2 at,
+    float *out)
+{
+    otx_sample_on_piece(
+        block->source, placed, &placed->own, &placed->own.whole, 1.0, at, out);
+    if (block->maps)
+        otx_sample_on_piece(
+            block->maps, placed, &placed->maps, &placed->maps.whole, 1.0, at,
+            out + block->source->channels);
 }
 
 #endif

@@ -119,9 +119,8 @@ hold(const otx_surface *surface, int32_t side, otx_walk *walk)
     walk->at[side] = 1.0 - walk->at[b];
 }
 
-/* The side that the place is farthest beyond; -1 inside. */
-static int32_t
-side_beyond(const double at[3])
+int32_t
+otx_walk_side_beyond(const double at[3])
 {
     const int32_t low =
         at[0] <= at[1] ? (at[0] <= at[2] ? 0 : 2) : (at[1] <= at[2] ? 1 : 2);
@@ -151,14 +150,14 @@ otx_walk_on(
 {
     for (int32_t i = 0; i < steps; ++i)
     {
-        const int32_t side = side_beyond(walk->at);
+        const int32_t side = otx_walk_side_beyond(walk->at);
 
         if (side < 0)
             return true;
         if (!otx_walk_cross(surface, covered, side, walk))
             hold(surface, side, walk);
     }
-    if (side_beyond(walk->at) < 0)
+    if (otx_walk_side_beyond(walk->at) < 0)
         return true;
     clamp(walk->at);
     return false;

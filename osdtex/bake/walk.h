@@ -36,4 +36,7 @@ bool otx_walk_cross(
     const otx_surface *surface, const uint8_t *covered, int32_t side,
     otx_walk *walk);
 
+/* The side that barycentric coordinates are farthest beyond; -1 inside. */
+int32_t otx_walk_side_beyond(const double at[3]);
+
 #endif

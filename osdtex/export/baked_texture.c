@@ -95,8 +95,7 @@ write_file(
         .share = 1.0};
 
     OTX_TRY(otx_texture_stream_begin(
-        run, set, path, bake->source.layout->side, channels, map, options,
-        stream));
+        run, set, path, bake, channels, map, options, stream));
     OTX_TRY(otx_bake_tile(run, bake, 0, &sink));
     return otx_texture_stream_end(run, set, exemplar, stream);
 }

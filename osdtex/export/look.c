@@ -264,8 +264,8 @@ write_preview(const writer *w, int32_t tile, otx_image *image)
  * the exemplar. */
 static otx_status
 begin_stream(
-    const writer *w, const char *path, int32_t channels, int32_t map,
-    otx_exr_options *options, otx_texture_stream *s)
+    const writer *w, const otx_bake *bake, const char *path, int32_t channels,
+    int32_t map, otx_exr_options *options, otx_texture_stream *s)
 {
     const otx_exr_attribute comment = {
         .name = "comments",
@@ -278,7 +278,7 @@ begin_stream(
         options->attribute_count = comment.text != NULL;
     }
     return otx_texture_stream_begin(
-        w->run, w->set, path, w->layout->side, channels, map, options, s);
+        w->run, w->set, path, bake, channels, map, options, s);
 }
 
 /* The files of the maps that are baked with the colour. */
@@ -298,7 +298,7 @@ begin_maps(const writer *w, const otx_bake *bake, int32_t tile, target *t)
             continue;
         map_suffix(w, kind, w->layout->tiles[tile], suffix);
         OTX_TRY(begin_stream(
-            w, path_of(w, suffix), otx_companion_channels(kind), k,
+            w, bake, path_of(w, suffix), otx_companion_channels(kind), k,
             is_exr ? &exr : NULL, &t->maps[k]));
     }
     return OSDTEX_OK;
@@ -356,8 +356,8 @@ write_tile(
     if (preview)
         OTX_TRY(begin_preview(w, bake, t));
     OTX_TRY(begin_stream(
-        w, path_of(w, suffix), bake->source.channels, -1, is_exr ? &exr : NULL,
-        &t->color));
+        w, bake, path_of(w, suffix), bake->source.channels, -1,
+        is_exr ? &exr : NULL, &t->color));
     OTX_TRY(begin_maps(w, bake, tile, t));
     sink.level_count = needs_levels(t) ? 0 : 1;
     OTX_TRY(otx_bake_tile(w->run, bake, tile, &sink));

@@ -6,10 +6,11 @@
 
 otx_status
 otx_texture_stream_begin(
-    otx_run *run, otx_atomic_file_set *set, const char *path, int32_t side,
-    int32_t channels, int32_t map, const otx_exr_options *options,
-    otx_texture_stream *out)
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_bake *bake, int32_t channels, int32_t map,
+    const otx_exr_options *options, otx_texture_stream *out)
 {
+    const int32_t side = bake->source.layout->side;
     const otx_exr_size size = {side, side, channels};
 
     OTX_TRY(otx_run_ok(run));
@@ -18,7 +19,7 @@ otx_texture_stream_begin(
         return otx_image_create(
             run, run->scratch, side, side, channels, &out->image);
     OTX_TRY(otx_exr_begin(run, set, path, size, options, &out->exr));
-    for (int32_t i = 0; i < OTX_BAKE_SLOTS; ++i)
+    for (int32_t i = 0; i < otx_bake_slots(bake); ++i)
         out->chunks[i].bytes =
             OTX_NEW(run->scratch, uint8_t, otx_exr_packed_bytes(out->exr));
     return otx_run_ok(run);

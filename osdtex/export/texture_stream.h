@@ -18,12 +18,12 @@ typedef struct otx_texture_stream
     otx_image image; /* where `exr` is NULL */
 } otx_texture_stream;
 
-/* Begins the file `path`, an EXR by `options` where that is not NULL. In
- * run->scratch. IO, MEMORY. */
+/* Begins the file `path` of a bake, an EXR by `options` where that is not NULL.
+ * In run->scratch. IO, MEMORY. */
 otx_status otx_texture_stream_begin(
-    otx_run *run, otx_atomic_file_set *set, const char *path, int32_t side,
-    int32_t channels, int32_t map, const otx_exr_options *options,
-    otx_texture_stream *out);
+    otx_run *run, otx_atomic_file_set *set, const char *path,
+    const otx_bake *bake, int32_t channels, int32_t map,
+    const otx_exr_options *options, otx_texture_stream *out);
 
 /* For `take` and `put` of a sink, see bake.h. */
 void otx_texture_stream_take(
