@@ -21,6 +21,8 @@ typedef struct packing
     int32_t face_count;
     int32_t side;          /* of a tile */
     const double *extents; /* [face_count * 2] of the blocks, scene units */
+    const uint8_t *odd;    /* [face_count * 2] 1: that side is an odd multiple
+                            * of twice the margin */
     int32_t *order;        /* [face_count], high cells first */
     int32_t *cells;        /* [face_count * 2] widths and heights */
     int32_t *places;       /* [face_count * 3] x, y, tile */
@@ -29,26 +31,31 @@ typedef struct packing
 /* ---- sizes --------------------------------------------------------------- */
 
 /* Of a block of `texels` with its margins: a multiple of twice the margin that
- * holds at least a block of that size, in a tile. */
+ * holds at least a block of that size, in a tile; of an odd block an even one.
+ */
 static int32_t
-cell_side(double texels, int32_t margin, int32_t side)
+cell_side(double texels, bool odd, int32_t margin, int32_t side)
 {
-    const int32_t step = 2 * margin;
+    const int32_t step = odd ? 4 * margin : 2 * margin;
     const int32_t most = side / step * step;
-    const double steps = ceil((texels + step) / step);
+    const double steps = ceil((texels + 2 * margin) / step);
 
     if (!(steps * step < most))
         return most;
-    return steps > 2.0 ? (int32_t)steps * step : 2 * step;
+    return steps * step > 4.0 * margin ? (int32_t)steps * step : 4 * margin;
 }
 
 /* Makes the sides of blocks that are one edge of the cage as long, by the
  * longest: then they get as many texels, and lookups along the edge find the
  * same from both sides. Opposite edges of a quad are one length, so whole loops
- * of edges are; of other faces the sides run aslant. */
+ * of edges are. Triangles are halves of squares, whose three sides have as many
+ * texels, and a length of their own: odd multiples of one number of texels have
+ * parts in common (rim_chain.h), so the loops that end at them are such. Of
+ * other faces the sides run aslant. */
 static otx_status
-even_out(otx_run *run, const otx_level *cage, double *extents)
+even_out(otx_run *run, const otx_level *cage, double *extents, uint8_t *odd)
 {
+    uint8_t *ends = OTX_ZNEW(run->scratch, uint8_t, cage->edge_count);
     int32_t *parent = OTX_NEW(run->scratch, int32_t, cage->edge_count);
     double *lengths = OTX_ZNEW(run->scratch, double, cage->edge_count);
 
@@ -62,6 +69,10 @@ even_out(otx_run *run, const otx_level *cage, double *extents)
         for (int32_t k = 0; k < 2 && otx_level_face_size(cage, f) == 4; ++k)
             otx_union_find_join(parent, edges[k], edges[k + 2]);
     }
+    for (int32_t f = 0; f < cage->face_count; ++f)
+        for (int32_t k = 0; k < 3 && otx_level_face_size(cage, f) == 3; ++k)
+            ends[otx_union_find_root(
+                parent, cage->face_edges[cage->face_first[f] + k])] = 1;
     for (int32_t pass = 0; pass < 2; ++pass)
         for (int32_t f = 0; f < cage->face_count; ++f)
         {
@@ -73,12 +84,24 @@ even_out(otx_run *run, const otx_level *cage, double *extents)
                     &lengths[otx_union_find_root(parent, edges[k])];
                 double *extent = &extents[2 * (size_t)f + (size_t)k];
 
+                odd[2 * (size_t)f + (size_t)k] =
+                    ends[otx_union_find_root(parent, edges[k])];
+
                 if (pass == 0)
                     *length = fmax(*length, *extent);
                 else
                     *extent = *length;
             }
         }
+    for (int32_t f = 0; f < cage->face_count; ++f)
+    {
+        double *extent = &extents[2 * (size_t)f];
+
+        if (otx_level_face_size(cage, f) != 3)
+            continue;
+        extent[0] = extent[1] = fmax(extent[0], extent[1]);
+        odd[2 * (size_t)f] = odd[2 * (size_t)f + 1] = 1;
+    }
     return OSDTEX_OK;
 }
 
@@ -121,8 +144,8 @@ static int32_t
 pack(packing *p, double texels_per_unit, int32_t margin)
 {
     for (size_t i = 0; i < 2 * (size_t)p->face_count; ++i)
-        p->cells[i] =
-            cell_side(texels_per_unit * p->extents[i], margin, p->side);
+        p->cells[i] = cell_side(
+            texels_per_unit * p->extents[i], p->odd[i], margin, p->side);
     return place(p);
 }
 
@@ -334,10 +357,12 @@ otx_atlas_pack(
     const otx_arena_mark mark = otx_arena_here(run->scratch);
     const size_t faces = (size_t)cage->face_count;
     double *extents = OTX_NEW(run->scratch, double, 2 * faces);
+    uint8_t *odd = OTX_ZNEW(run->scratch, uint8_t, 2 * faces);
     packing p = {
         .face_count = cage->face_count,
         .side = options->side,
         .extents = extents,
+        .odd = odd,
         .order = OTX_NEW(run->scratch, int32_t, faces),
         .cells = OTX_NEW(run->scratch, int32_t, 2 * faces),
         .places = OTX_NEW(run->scratch, int32_t, 3 * faces),
@@ -348,7 +373,7 @@ otx_atlas_pack(
     out->uvs = OTX_NEW(run->arena, float, 2 * (size_t)cage->corner_count);
     OTX_TRY(otx_run_ok(run));
     OTX_TRY(otx_extent_measure(run, surface, extents));
-    OTX_TRY(even_out(run, &surface->levels[0], extents));
+    OTX_TRY(even_out(run, &surface->levels[0], extents, odd));
     if (!sort_faces(run->scratch, &p))
         return otx_fail_memory(run, STAGE);
     settle(&p, options, out);

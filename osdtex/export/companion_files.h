@@ -48,13 +48,14 @@ otx_status otx_companion_files_write(
     otx_run *run, otx_atomic_file_set *set, const char *path,
     const otx_exemplar *exemplar, double width);
 
-/* Says where heights do not meet everywhere: on a cage's own UVs, and in an
- * atlas at the edges of triangles and polygons, the two sides of a cut have
- * texels of their own.
+/* Says where heights do not meet everywhere: on a cage's own UVs and on charts,
+ * and in an atlas of blocks at the edges of faces of more than four corners,
+ * the two sides of a cut have texels of their own.
  *
- *   cage    whose faces the atlas has
- *   height  what their file is called; NULL there are none */
+ *   in_blocks  of an atlas, and not its charts
+ *   cage       whose faces these are
+ *   height     what their file is called; NULL there are none */
 void otx_companion_files_say_gaps(
-    otx_run *run, bool is_atlas, const otx_level *cage, const char *height);
+    otx_run *run, bool in_blocks, const otx_level *cage, const char *height);
 
 #endif

@@ -644,8 +644,8 @@ write_files(const writer *w)
             otx_layout_find_tile(w->run, w->layout, w->options->udim, &tile));
     say_tiles(w);
     otx_companion_files_say_gaps(
-        w->run, w->layout->is_atlas, &w->layout->surface->levels[0],
-        map_name(w, OTX_COMPANION_HEIGHT));
+        w->run, w->layout->is_atlas && !w->layout->is_charts,
+        &w->layout->surface->levels[0], map_name(w, OTX_COMPANION_HEIGHT));
     OTX_TRY(write_kind(w, OTX_TEXEL_COLOR));
     for (int32_t kind = 1; kind < OTX_TEXEL_KIND_COUNT; ++kind)
         if (w->options->extras[kind])

@@ -71,7 +71,7 @@ class Material(ProgramTest):
 
     def test_where_heights_may_open_is_said(self):
         for cage, words in (("torus", None),
-                            ("ngons_and_triangles", "are triangles or polygons")):
+                            ("ngons_and_triangles", "have more than four corners")):
             result = self.run_program(
                 "bake", CAGES / f"{cage}.obj", "--material", self.set, "-o",
                 self.folder / f"{cage}.obj", "--level", "0", "--uvs", "atlas",
