@@ -38,6 +38,7 @@ typedef struct otx_exr_options
 {
     bool tiled;      /* a texture; false: scanlines, no mip levels */
     bool full_float; /* 32 bits a channel; false: half */
+    bool is_quick;   /* packed in half the time, and a little larger */
     bool wrap_x;     /* the picture repeats: "periodic", else "clamp" */
     bool wrap_y;
     bool has_chromaticities;

@@ -10,7 +10,8 @@
 
 enum
 {
-    LEVEL = 4 /* of libdeflate: OpenEXR's own choice */
+    LEVEL = 4, /* of libdeflate: OpenEXR's own choice */
+    QUICK_LEVEL = 1
 };
 
 static uint16_t
@@ -119,7 +120,8 @@ otx_exr_chunk_pack(
         return;
     chunk->status = OSDTEX_ERROR_MEMORY;
     if (!packer->deflate)
-        packer->deflate = libdeflate_alloc_compressor(LEVEL);
+        packer->deflate =
+            libdeflate_alloc_compressor(packer->is_quick ? QUICK_LEVEL : LEVEL);
     if (!packer->deflate)
         return;
     chunk->status = OSDTEX_OK;

@@ -33,6 +33,7 @@ typedef struct otx_exr_chunk
 typedef struct otx_exr_packer
 {
     void *deflate;
+    bool is_quick;         /* rather than small */
     uint8_t *rows, *split; /* [otx_exr_chunk_bytes] each */
 } otx_exr_packer;
 

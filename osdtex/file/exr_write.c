@@ -403,6 +403,7 @@ make_packers(
     OTX_TRY(otx_run_ok(run));
     for (int32_t i = 0; i < threads; ++i)
     {
+        w->packers[i].is_quick = parts->options->is_quick;
         w->packers[i].rows = OTX_NEW(run->scratch, uint8_t, bytes);
         w->packers[i].split = OTX_NEW(run->scratch, uint8_t, bytes);
         OTX_TRY(otx_run_ok(run));
