@@ -2,9 +2,9 @@
 #ifndef OTX_BAKE_BLOCK_H
 #define OTX_BAKE_BLOCK_H
 
+#include "bake/beyond.h"
 #include "bake/mip_facet.h"
 #include "bake/raster.h"
-#include "bake/beyond.h"
 
 enum
 {
