@@ -6,10 +6,10 @@ Cycles, and compare with a picture of osdtex.
 
 At level 0 the model is what the importer makes of it. Above, it is a baked cage
 and loaded by tools/dcc/blender/osdtex_import.py, with another rule for UVs
-unless UV_SMOOTH is `-`. Textures are taken as Blender loads them: nothing is
-said about their colours.
+unless UV_SMOOTH is `-`; a .usda by Blender's own importer, with subdivision.
+Textures are taken as Blender loads them: nothing is said about their colours.
 
-Prints `model FACES VERTICES UVS`, `image NAME WIDTH HEIGHT FLOAT SOURCE SPACE`
+Prints `map SOCKET FILE SPACE` for each texture that a surface gets, `model FACES VERTICES UVS`, `image NAME WIDTH HEIGHT FLOAT SOURCE SPACE`
 and `difference MEAN P99 MAX DELTA_E of PIXELS`; Delta E is the mean distance in
 CIELAB (1976).
 """
@@ -31,8 +31,22 @@ MODEL, PICTURE, UV_SMOOTH, LEVEL, CAMERA = sys.argv[sys.argv.index("--") + 1 :]
 WIDTH, HEIGHT = 320, 240
 
 
+def import_usd():
+    """The mesh where the file has it, whatever its unit and its axes are."""
+    bpy.ops.wm.usd_import(filepath=MODEL, import_subdivision=True)
+    part = next(o for o in bpy.data.objects if o.type == "MESH")
+    part.matrix_world = Matrix.Identity(4)
+    for modifier in part.modifiers:
+        modifier.levels = modifier.render_levels = int(LEVEL)
+        modifier.quality = 6
+    assert len(part.modifiers) == 1, "subdivision is expected"
+    return part
+
+
 def import_model():
     """The axes as they are."""
+    if MODEL.endswith(".usda"):
+        return import_usd()
     if int(LEVEL) > 0:
         part = osdtex_import.load(MODEL, int(LEVEL), "Y", "Z")
         if UV_SMOOTH != "-":
@@ -56,11 +70,38 @@ def describe(mesh):
     )
 
 
+def end_of(socket):
+    """Where what an image gives comes in, through nodes that only part or turn
+    it over."""
+    for link in socket.links:
+        to = link.to_node
+        if to.type in ("SEPARATE_COLOR", "SEPRGB", "NORMAL_MAP", "DISPLACEMENT"):
+            return end_of(to.outputs[0])
+        return link.to_socket.name
+
+
+def describe_maps(tree):
+    for node in tree.nodes:
+        if node.type == "TEX_IMAGE" and node.outputs["Color"].links:
+            print(
+                "map %s %s %s" % (
+                    end_of(node.outputs["Color"]).replace(" ", "_"),
+                    Path(node.image.filepath).name,
+                    node.image.colorspace_settings.name.replace(" ", "_")))
+
+
 def glow(mesh):
     """The texture without light on it: its node stays as it was imported."""
     for material in mesh.materials:
         tree = material.node_tree
-        texture = next(n for n in tree.nodes if n.type == "TEX_IMAGE")
+        describe_maps(tree)
+        texture = next(
+            n for n in tree.nodes if n.type == "TEX_IMAGE" and "Base Color" in
+            [link.to_socket.name for link in n.outputs["Color"].links])
+        for output in tree.nodes:
+            if output.type == "OUTPUT_MATERIAL":
+                for link in list(output.inputs["Displacement"].links):
+                    tree.links.remove(link)
         output = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
         light = tree.nodes.new("ShaderNodeEmission")
         tree.links.new(texture.outputs["Color"], light.inputs["Color"])

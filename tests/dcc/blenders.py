@@ -70,8 +70,10 @@ def look(blender, model, camera, level=0, uv_smooth="-"):
         # Blender takes the modules of the first Python on the path.
         env={**os.environ, "PATH": "/usr/bin:/bin"},
     )
-    said = {}
+    said = {"maps": {}}
     for line in text.splitlines():
+        if line.startswith("map "):
+            said["maps"][line.split()[1]] = line.split()[2:]
         if line.startswith(("model ", "image ", "difference ")):
             said[line.split()[0]] = line.split()[1:]
     assert int(said["difference"][5]) > 4000, said
