@@ -48,6 +48,14 @@ resolve(picture *p, int32_t x, int32_t y, float *out)
         otx_aov_inside(block, x, y, first, out);
 }
 
+/* A few values, for which memcpy() is a call. */
+static inline void
+copy(const float *from, size_t count, float *to)
+{
+    for (size_t i = 0; i < count; ++i)
+        to[i] = from[i];
+}
+
 static void
 shade_texel(picture *p, int32_t x, int32_t y)
 {
@@ -63,8 +71,8 @@ shade_texel(picture *p, int32_t x, int32_t y)
         return;
     }
     resolve(p, x, y, out);
-    memcpy(p->pixels + i * own, out, own * sizeof *out);
-    memcpy(p->values + i * maps, out + own, maps * sizeof *out);
+    copy(out, own, p->pixels + i * own);
+    copy(out + own, maps, p->values + i * maps);
 }
 
 /* Whether a texel is of the block, or of its apron and looked at: by the
@@ -158,9 +166,9 @@ hand_out(
             (size_t)otx_companion_channels((otx_companion_kind)kind);
 
         if (maps->first[kind] >= 0)
-            memcpy(
-                planes[kind] + at * channels, values + maps->first[kind],
-                channels * sizeof *values);
+            copy(
+                values + maps->first[kind], channels,
+                planes[kind] + at * channels);
     }
 }
 
