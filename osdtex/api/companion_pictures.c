@@ -237,6 +237,11 @@ otx_companion_pictures_take(
     out->height_range = options->height_range;
     out->height_middle = options->height_middle;
     out->written_y_down = options->normals_y_down != 0;
+    if (out->written_y_down && out->maps[OTX_COMPANION_NORMAL].is_there)
+        otx_note(
+            run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
+            "normals are written with y down, and an MTL cannot say so: who "
+            "reads one takes y to be up; the .usda and the .mtlx say it");
     return OSDTEX_OK;
 }
 

@@ -33,8 +33,8 @@ typedef struct otx_exr_chunk
 typedef struct otx_exr_packer
 {
     void *deflate;
-    bool is_quick;         /* rather than small */
     uint8_t *rows, *split; /* [otx_exr_chunk_bytes] each */
+    bool is_quick;         /* rather than small */
 } otx_exr_packer;
 
 /* Bytes of so many texels before compression, the most that packed ones take.

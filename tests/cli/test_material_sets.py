@@ -92,7 +92,8 @@ class Sets(ProgramTest):
         """Green is turned over, and USD and MaterialX turn it back."""
         self.need("oiiotool")
         self.bake("--material", WAVES)
-        self.bake("--material", WAVES, "--normal-y", "down", name="b.obj")
+        said = self.bake("--material", WAVES, "--normal-y", "down", name="b.obj")
+        self.assertEqual(said.count("an MTL cannot say so"), 1)
         self.same("a", "b", ("", "_height"))
         result = subprocess.run(
             ["oiiotool", str(self.folder / "a_normal.1001.exr"), "--mulc",

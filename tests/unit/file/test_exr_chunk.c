@@ -26,12 +26,12 @@ typedef struct desk
 } desk;
 
 static void
-pack(desk *d, bool full_float)
+pack(desk *d, bool full_float, bool is_quick)
 {
     const otx_exr_texels texels = {
         d->pixels, SIDE * CHANNELS, SIDE, SIDE, CHANNELS};
 
-    d->packer = (otx_exr_packer){NULL, d->rows, d->split};
+    d->packer = (otx_exr_packer){NULL, d->rows, d->split, is_quick};
     d->chunk = (otx_exr_chunk){.bytes = d->bytes};
     otx_exr_chunk_pack(&d->packer, &texels, full_float, &d->chunk);
     otx_exr_packer_close(&d->packer);
@@ -67,7 +67,7 @@ rows_are_in_the_files_order(void **state)
     (void)state;
     for (int32_t i = 0; i < TEXELS * CHANNELS; ++i)
         d.pixels[i] = (float)(i / CHANNELS / SIDE) + 0.25f * (float)(i % 3);
-    pack(&d, true);
+    pack(&d, true, false);
     assert_int_equal(d.chunk.status, OSDTEX_OK);
     assert_true(d.chunk.size < BYTES / 4);
     unpack(&d, BYTES, bytes);
@@ -95,7 +95,7 @@ halves_take_two_bytes(void **state)
     for (int32_t i = 0; i < TEXELS * CHANNELS; ++i)
         d.pixels[i] = 1.0f;
     d.pixels[0] = 1e6f;
-    pack(&d, false);
+    pack(&d, false, true);
     assert_int_equal(d.chunk.status, OSDTEX_OK);
     assert_int_equal(d.chunk.clamped_count, 1);
     unpack(&d, BYTES / 2, bytes);
@@ -120,7 +120,7 @@ what_grows_is_stored(void **state)
 
         memcpy(&d.pixels[i], &bits, sizeof bits);
     }
-    pack(&d, true);
+    pack(&d, true, false);
     assert_int_equal(d.chunk.status, OSDTEX_OK);
     assert_int_equal(d.chunk.size, BYTES);
     assert_memory_equal(d.bytes, d.rows, BYTES);
