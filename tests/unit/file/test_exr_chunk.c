@@ -137,7 +137,7 @@ what_is_not_finite_is_refused(void **state)
     {
         memset(d.pixels, 0, sizeof d.pixels);
         d.pixels[100 * i + 7] = bad[i % 3];
-        pack(&d, i < 3);
+        pack(&d, i < 3, false);
         assert_int_equal(d.chunk.status, OSDTEX_ERROR_NUMERIC);
     }
 }
