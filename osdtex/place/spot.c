@@ -1,17 +1,7 @@
 /* spot.c -- a point on the surface, as those who place something name it. */
 #include "place/spot.h"
 
-#include "surface/facet.h"
-
-static void
-load(const otx_surface *surface, const int32_t corners[3], otx_vec3 triangle[3])
-{
-    const otx_level *leaf = otx_surface_leaf(surface);
-
-    for (int k = 0; k < 3; ++k)
-        triangle[k] =
-            otx_vec3_load(surface->points, leaf->face_verts[corners[k]]);
-}
+#include "surface/closest.h"
 
 static otx_vec3
 mix(const otx_vec3 t[3], const double at[3])
@@ -19,34 +9,6 @@ mix(const otx_vec3 t[3], const double at[3])
     const otx_vec3 ab = otx_vec3_mix(at[0], t[0], at[1], t[1]);
 
     return otx_vec3_mix(1.0, ab, at[2], t[2]);
-}
-
-/* The nearest point of a side, as the share of its end. */
-static double
-along_side(otx_vec3 p, otx_vec3 a, otx_vec3 b)
-{
-    const otx_vec3 d = otx_vec3_sub(b, a);
-    const double t =
-        otx_vec3_dot(otx_vec3_sub(p, a), d) / fmax(otx_vec3_dot(d, d), 1e-300);
-
-    return fmin(fmax(t, 0.0), 1.0);
-}
-
-/* Barycentric coordinates of the point of a triangle's plane below p; false
- * where that is outside. */
-static bool
-is_above(otx_vec3 p, const otx_vec3 t[3], double at[3])
-{
-    const otx_vec3 a = otx_vec3_sub(t[1], t[0]), b = otx_vec3_sub(t[2], t[0]);
-    const otx_vec3 n = otx_vec3_cross(a, b), d = otx_vec3_sub(p, t[0]);
-    const double area = otx_vec3_dot(n, n);
-
-    if (!(area > 0.0))
-        return false;
-    at[1] = otx_vec3_dot(otx_vec3_cross(d, b), n) / area;
-    at[2] = otx_vec3_dot(otx_vec3_cross(a, d), n) / area;
-    at[0] = 1.0 - at[1] - at[2];
-    return at[0] >= 0.0 && at[1] >= 0.0 && at[2] >= 0.0;
 }
 
 /* Takes the point of a facet that is nearest to p where it is nearer than the
@@ -57,34 +19,17 @@ look_at(
     otx_spot *spot)
 {
     otx_vec3 t[3];
-    double at[3];
+    double at[3], distance;
 
-    load(surface, facet->corners, t);
-    for (int side = is_above(p, t, at) ? -1 : 0; side < 3; ++side)
-    {
-        double distance;
-
-        if (side >= 0)
-        {
-            const double share = along_side(p, t[side], t[(side + 1) % 3]);
-
-            at[side] = 1.0 - share;
-            at[(side + 1) % 3] = share;
-            at[(side + 2) % 3] = 0.0;
-        }
-        distance = otx_vec3_length(otx_vec3_sub(mix(t, at), p));
-        if (distance < spot->distance)
-        {
-            *spot = (otx_spot){
-                facet->face,
-                {facet->corners[0], facet->corners[1], facet->corners[2]},
-                {at[0], at[1], at[2]},
-                mix(t, at),
-                distance};
-        }
-        if (side < 0)
-            return;
-    }
+    otx_closest_corners(surface, facet->corners, t);
+    distance = otx_closest_on(p, t, at);
+    if (distance < spot->distance)
+        *spot = (otx_spot){
+            facet->face,
+            {facet->corners[0], facet->corners[1], facet->corners[2]},
+            {at[0], at[1], at[2]},
+            mix(t, at),
+            distance};
 }
 
 static otx_spot
@@ -154,7 +99,7 @@ otx_spot_within(const otx_surface *surface, int32_t face, const double by[2])
         .at = {1.0 - s, s * (1.0 - by[1]), s * by[1]}};
     otx_vec3 t[3];
 
-    load(surface, spot.corners, t);
+    otx_closest_corners(surface, spot.corners, t);
     spot.point = mix(t, spot.at);
     return spot;
 }
