@@ -132,13 +132,15 @@ typedef struct osdtex_map_options
      * and with a minus before it the other way round. NULL: "y". Of other
      * exemplars it says nothing. */
     const char *along;
-    /* A mapping of the same faces in another shape, that is to be kept: leaves
-     * whose shape has hardly changed show what they did, to the bit, others
-     * are relaxed between them, or covered anew where they are stretched too
-     * far. It decides method, settings, scale and level. One that was read for
-     * the changed cage (osdtex_mapping_read_options.cage) knows the shape that
-     * it was saved with. What was asked of it by constraints is not asked
-     * again. NULL none. */
+    /* A mapping that is to be kept on a cage that has changed: leaves whose
+     * shape has hardly changed show what they did, others are relaxed between
+     * them, or covered anew where they are stretched too far. Where the cage
+     * has the same faces that is told by their numbers and to the bit, else by
+     * where leaves lie. It decides method, settings, scale and, unless `level`
+     * does, the level. One that was read for the changed cage
+     * (osdtex_mapping_read_options.cage) knows the shape that it was saved
+     * with. What was asked of it by constraints is not asked again. NULL none.
+     */
     const struct osdtex_mapping *keep;
     /* A file of pictures that are placed over what the method makes, JSON or
      * CSV: docs/formats-place.md. Bakes and pictures show them, UVs cannot.
@@ -344,7 +346,9 @@ typedef struct osdtex_mapping_read_options
                         * saved; NULL: that */
     osdtex_texture_type texture_type; /* of what is written; ANY: what the
                                        * receiver takes */
-    int32_t reserved;
+    /* 1: where `cage` has other faces it is left aside, and the mapping read on
+     * its own one: to be kept on the other (osdtex_map_options.keep). */
+    int32_t other_faces;
 } osdtex_mapping_read_options;
 
 static inline osdtex_mapping_read_options

@@ -4,8 +4,11 @@
 #include "api/call.h"
 #include "api/edit_call.h"
 #include "api/saved_about.h"
+#include "edit/apply.h"
 #include "edit/keep.h"
+#include "edit/project.h"
 #include "mapping/mapping_check.h"
+#include "place/spot.h"
 
 #include <math.h>
 #include <string.h>
@@ -43,31 +46,38 @@ otx_keep_call_options(
             scale, options->scale);
     options->scale = scale;
     options->method = keep->method->name;
-    if (options->level == OSDTEX_LEVEL_AUTO)
-        options->level = keep->surface->info.level;
     return OSDTEX_OK;
 }
 
 static otx_status
-check_faces(
-    otx_run *run, const osdtex_mapping *keep, const osdtex_mapping *handle)
+compare_faces(
+    otx_run *run, const osdtex_mapping *keep, const osdtex_cage *cage,
+    bool *same)
 {
     const char *a, *b;
 
     OTX_TRY(otx_saved_topology(run, &keep->surface->cage->cage, &a));
-    OTX_TRY(otx_saved_topology(run, &handle->surface->cage->cage, &b));
-    if (strcmp(a, b) != 0)
-        return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, STAGE,
-            otx_where_file(handle->surface->cage->info.path),
-            "the cage has other faces than the one that was mapped, and a "
-            "mapping is kept by its faces; map it anew");
-    if (keep->surface->info.level != handle->surface->info.level)
-        return otx_fail(
-            run, OSDTEX_ERROR_ARGUMENT, STAGE, OTX_NOWHERE,
-            "the mapping that is kept is of level %d, not %d; leave {level} "
-            "out",
-            (int)keep->surface->info.level, (int)handle->surface->info.level);
+    OTX_TRY(otx_saved_topology(run, &cage->cage, &b));
+    *same = strcmp(a, b) == 0 &&
+            keep->surface->cage->cage.scheme == cage->cage.scheme;
+    return OSDTEX_OK;
+}
+
+otx_status
+otx_keep_call_level(
+    otx_run *run, const osdtex_mapping *keep, const osdtex_cage *cage,
+    int32_t *level)
+{
+    bool same;
+
+    if (*level != OSDTEX_LEVEL_AUTO)
+        return OSDTEX_OK;
+    OTX_TRY(compare_faces(run, keep, cage, &same));
+    if (same)
+        *level = keep->surface->info.level;
+    else
+        *level = otx_surface_level_for(
+            &cage->cage, keep->surface->surface.mean_edge_length);
     return OSDTEX_OK;
 }
 
@@ -89,15 +99,15 @@ check_exemplars(
                       "or of other sizes of them; give the same ones");
 }
 
-/* The leaf points that the mapping was made for. */
+/* The surface that the mapping was made for, without a density. */
 static otx_status
-find_points(otx_run *run, const osdtex_mapping *keep, const float **out)
+find_surface(otx_run *run, const osdtex_mapping *keep, const otx_surface **out)
 {
     const osdtex_surface *surface = keep->surface;
     otx_cage *cage;
     otx_surface *before;
 
-    *out = surface->surface.points;
+    *out = &surface->surface;
     if (!keep->made_for)
         return OSDTEX_OK;
     cage = OTX_NEW(run->arena, otx_cage, 1);
@@ -106,13 +116,59 @@ find_points(otx_run *run, const osdtex_mapping *keep, const float **out)
     *cage = surface->cage->cage;
     cage->points = keep->made_for;
     OTX_TRY(otx_surface_refine(run, cage, surface->info.level, 0, before));
-    *out = before->points;
+    *out = before;
     return OSDTEX_OK;
+}
+
+/* The same relative to the origin of another cage. */
+static otx_status
+shift_surface(otx_run *run, const otx_cage *to, const otx_surface **surface)
+{
+    const size_t count = 3 * (size_t)otx_surface_leaf(*surface)->vert_count;
+    const double *from = (*surface)->cage->origin;
+    otx_surface *moved;
+    float *points;
+
+    if (memcmp(from, to->origin, sizeof to->origin) == 0)
+        return OSDTEX_OK;
+    moved = OTX_NEW(run->arena, otx_surface, 1);
+    points = OTX_NEW(run->arena, float, count);
+    OTX_TRY(otx_run_ok(run));
+    for (size_t i = 0; i < count; ++i)
+        points[i] =
+            (float)((double)(*surface)->points[i] + from[i % 3] - to->origin[i % 3]);
+    *moved = **surface;
+    moved->points = points;
+    *surface = moved;
+    return OSDTEX_OK;
+}
+
+/* What was asked at a face of the cage that is no more is asked around its
+ * middle. */
+static void
+move_to_points(
+    const osdtex_surface *surface, otx_constraint_set *set,
+    otx_constraint *items)
+{
+    const double *o = surface->cage->cage.origin;
+
+    for (int32_t i = 0; i < set->count; ++i)
+    {
+        otx_spot spot;
+
+        if (items[i].face < 0)
+            continue;
+        spot = otx_spot_of_face(&surface->surface, items[i].face);
+        items[i].face = -1;
+        items[i].point = otx_vec3_add(spot.point, (otx_vec3){o[0], o[1], o[2]});
+        items[i].radius = 0.5 * surface->cage->cage.mean_edge_length;
+    }
 }
 
 /* What was asked of the mapping, and its settings, go on with it. */
 static otx_status
-take_over(otx_run *run, const osdtex_mapping *keep, osdtex_mapping *handle)
+take_over(
+    otx_run *run, const osdtex_mapping *keep, bool same, osdtex_mapping *handle)
 {
     const size_t bytes = keep->method->settings_bytes;
     void *settings = otx_arena_alloc(run->arena, 1, bytes);
@@ -127,8 +183,44 @@ take_over(otx_run *run, const osdtex_mapping *keep, osdtex_mapping *handle)
         return OSDTEX_OK;
     OTX_TRY(
         otx_edit_call_copy(run, keep->request.constraints, 0, &set, &items));
+    if (!same)
+        move_to_points(keep->surface, set, items);
     handle->request.constraints = set;
     return OSDTEX_OK;
+}
+
+/* The mapping on the new faces, as otx_keep_run wants it. */
+static otx_status
+project(
+    otx_run *run, const osdtex_mapping *keep, const otx_surface *made_for,
+    otx_projected *out, otx_keep *what)
+{
+    otx_project ask = {
+        &keep->mapping, made_for, keep->exemplars, what->job->surface};
+
+    OTX_TRY(otx_edit_check(run, what->method, &keep->mapping, keep->exemplars));
+    OTX_TRY(shift_surface(run, ask.to->cage, &ask.made_for));
+    OTX_TRY(otx_project_run(run, &ask, out));
+    what->from = &out->mapping;
+    what->points = out->points;
+    what->loose = out->loose;
+    return OSDTEX_OK;
+}
+
+/* Makes the mapping, with what is needed on the way in `run`'s arena. */
+static otx_status
+keep_it(
+    otx_run *run, const osdtex_mapping *keep, bool same, otx_keep *what,
+    otx_mapping *out, otx_keep_tally *tally)
+{
+    const otx_surface *made_for;
+    otx_projected projected;
+
+    OTX_TRY(find_surface(run, keep, &made_for));
+    what->points = made_for->points;
+    if (!same)
+        OTX_TRY(project(run, keep, made_for, &projected, what));
+    return otx_keep_run(what, out, tally);
 }
 
 static void
@@ -137,6 +229,7 @@ report(const otx_keep_tally *t, otx_figures *figures)
     otx_figures_count(figures, "kept.held", "faces", t->held);
     otx_figures_count(figures, "kept.moved", "faces", t->moved);
     otx_figures_count(figures, "kept.covered", "faces", t->covered);
+    otx_figures_real(figures, "kept.texels", "of the area", t->texels);
 }
 
 otx_status
@@ -152,21 +245,22 @@ otx_keep_call_run(
         .settings = keep->settings,
     };
     otx_run aside = *run;
-    otx_keep what = {&job, handle->method, &keep->mapping, NULL};
+    otx_keep what = {
+        .job = &job, .method = handle->method, .from = &keep->mapping};
     otx_keep_tally tally;
     otx_status status;
+    bool same;
 
-    OTX_TRY(check_faces(run, keep, handle));
+    OTX_TRY(compare_faces(run, keep, handle->surface->cage, &same));
+    same = same && keep->surface->info.level == handle->surface->info.level;
     OTX_TRY(check_exemplars(run, keep, handle));
-    OTX_TRY(take_over(run, keep, handle));
+    OTX_TRY(take_over(run, keep, same, handle));
     handle->figures = (otx_figures){0};
     otx_figures_stage(&handle->figures, STAGE);
     aside.arena = otx_arena_create(run->allocator);
     if (!aside.arena)
         return otx_fail_memory(run, STAGE);
-    status = find_points(&aside, keep, &what.points);
-    if (status == OSDTEX_OK)
-        status = otx_keep_run(&what, &handle->mapping, &tally);
+    status = keep_it(&aside, keep, same, &what, &handle->mapping, &tally);
     otx_arena_destroy(aside.arena);
     OTX_TRY(status);
     /* What is placed over the mapping is not copied, and lives with it. */

@@ -64,6 +64,9 @@ choose_surface(
             &call->run, OSDTEX_ERROR_ARGUMENT, "map", OTX_NOWHERE,
             "no cage is given, or the surface is of another one");
     refine.level = options->level;
+    if (options->keep)
+        OTX_TRY(otx_keep_call_level(
+            &call->run, options->keep, cage, &refine.level));
     refine.leaf_edge = osdtex_exemplar_leaf_edge(
         exemplar,
         options->scale > 0.0 ? options->scale : cage->info.default_scale);

@@ -1,6 +1,7 @@
 /* preflight.c -- what can be known of a job before it runs. */
 #include "api/call.h"
 #include "api/handle.h"
+#include "api/keep_call.h"
 #include "api/map_resolve.h"
 #include "api/rehearsal.h"
 #include "bake/charts.h"
@@ -51,6 +52,9 @@ take_options(look *l, const osdtex_job *theirs)
     OTX_TRY(otx_call_options(l->run, &l->map, sizeof l->map, job.map));
     if (!job.surface)
         l->surface.level = l->map.level;
+    if (l->map.keep)
+        OTX_TRY(otx_keep_call_level(
+            l->run, l->map.keep, l->cage, &l->surface.level));
     return otx_call_options(l->run, &l->bake, sizeof l->bake, job.bake);
 }
 

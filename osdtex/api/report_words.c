@@ -41,6 +41,8 @@ static const otx_report_words MAPPING[] = {
     {"mapping.kept.moved", "faces", "Those that were relaxed between them."},
     {"mapping.kept.covered", "faces",
      "Those that were covered anew, or lie within 24 texels of such."},
+    {"mapping.kept.texels", "of the area",
+     "Share of the surface that shows what it did, within a texel."},
     {"mapping.placed.decals", "decals",
      "Pictures that were placed over the texture."},
     {"mapping.placed.faces", "faces",

@@ -150,22 +150,58 @@ find_named(
     return damaged(l, sentence);
 }
 
+/* Reads a cage, and says whether its faces are those that were mapped. */
+static otx_status
+read_cage_file(loader *l, const char *path, bool *fits)
+{
+    const char *topology;
+
+    OTX_TRY(osdtex_cage_read(l->call->context, path, &l->about.cage, &l->cage));
+    OTX_TRY(otx_saved_topology(&l->call->run, &l->cage->cage, &topology));
+    *fits = strcmp(topology, l->about.topology) == 0;
+    return OSDTEX_OK;
+}
+
+/* The cage that the mapping names. */
+static otx_status
+read_own_cage(loader *l, const char **path, bool *fits)
+{
+    OTX_TRY(find_named(l, "cage", l->about.cage_path, path));
+    return read_cage_file(l, *path, fits);
+}
+
+/* The cage that is asked for, or else the mapping's own. */
+static otx_status
+find_cage(loader *l)
+{
+    const char *path = l->options.cage;
+    bool fits = false;
+
+    if (path)
+        OTX_TRY(read_cage_file(l, path, &fits));
+    if (!fits && path && l->options.other_faces)
+    {
+        osdtex_cage_destroy(l->cage);
+        l->cage = NULL;
+        path = NULL;
+    }
+    if (!path)
+        OTX_TRY(read_own_cage(l, &path, &fits));
+    if (fits)
+        return OSDTEX_OK;
+    return otx_fail(
+        &l->call->run, OSDTEX_ERROR_ARGUMENT, STAGE, otx_where_file(path),
+        "the cage has other faces than the one that was mapped; map it "
+        "anew, or give the one that the mapping was made for");
+}
+
 static otx_status
 read_cage(loader *l)
 {
     osdtex_context *context = l->call->context;
     osdtex_surface_options level = osdtex_surface_options_default();
-    const char *path = l->options.cage, *topology;
 
-    if (!path)
-        OTX_TRY(find_named(l, "cage", l->about.cage_path, &path));
-    OTX_TRY(osdtex_cage_read(context, path, &l->about.cage, &l->cage));
-    OTX_TRY(otx_saved_topology(&l->call->run, &l->cage->cage, &topology));
-    if (strcmp(topology, l->about.topology) != 0)
-        return otx_fail(
-            &l->call->run, OSDTEX_ERROR_ARGUMENT, STAGE, otx_where_file(path),
-            "the cage has other faces than the one that was mapped; map it "
-            "anew, or give the one that the mapping was made for");
+    OTX_TRY(find_cage(l));
     OTX_TRY(compare_points(l));
     OTX_TRY(check_level(l));
     level.level = l->about.level;

@@ -85,8 +85,8 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "cage or at points, and which exemplar: a .json or .csv"},
     [OTX_FLAG_KEEP] =
         {"keep", 0, OTX_FLAG_GROUP_MAIN, "OLD.osdtex",
-         "a saved mapping of the same faces before they were moved: what has "
-         "not changed shows what it did, what has is relaxed, or covered anew "
+         "a saved mapping of the cage before it was changed: what lies where "
+         "it did shows what it did, what has moved is relaxed, or covered anew "
          "where it would be stretched too far; method, settings, scale "
          "and level are those of OLD"},
     [OTX_FLAG_REDO] =

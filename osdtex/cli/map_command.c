@@ -60,6 +60,7 @@ read_kept(otx_session *session, job *j)
     if (!path)
         return OSDTEX_OK;
     options.cage = r->values->operands[0];
+    options.other_faces = 1;
     status = osdtex_mapping_read(session->context, path, &options, &j->keep);
     otx_session_lap(session, "old mapping read");
     if (status != OSDTEX_OK)
@@ -69,9 +70,6 @@ read_kept(otx_session *session, job *j)
         r->map_options.method = osdtex_mapping_describe(j->keep)->method;
     if (r->map_options.scale == 0.0)
         r->map_options.scale = osdtex_mapping_describe(j->keep)->scale;
-    if (!r->values->text[OTX_FLAG_LEVEL])
-        r->surface_options.level =
-            osdtex_surface_describe(osdtex_mapping_surface(j->keep))->level;
     return OSDTEX_OK;
 }
 
@@ -89,6 +87,8 @@ look_ahead(otx_session *session, job *j)
     status = osdtex_preflight(
         session->context, j->cage, j->exemplar, &asked, &j->forecast);
     r->map_options.scale = j->forecast.scale;
+    if (j->keep)
+        r->surface_options.level = j->forecast.level;
     r->surface_options.leaf_edge =
         osdtex_exemplar_leaf_edge(j->exemplar, r->map_options.scale);
     otx_session_lap(session, "looked over");

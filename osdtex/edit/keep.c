@@ -101,7 +101,7 @@ state_of(const otx_keep *k, int32_t face)
     s = strain_of(k, face);
     if (s.change <= ROUNDING ||
         (s.change <= CHANGED && s.after <= fmax(TOLERATED, s.before)))
-        return OTX_REFIT_HELD;
+        return k->loose && k->loose[face] ? OTX_REFIT_FREE : OTX_REFIT_HELD;
     return s.after <= fmax(STRETCHED, s.before) ? OTX_REFIT_FREE
                                                 : OTX_REFIT_OPEN;
 }
@@ -151,6 +151,67 @@ count(const uint8_t *state, int32_t faces, otx_keep_tally *tally)
     }
 }
 
+/* Whether a face shows what it did, within a texel. */
+static bool
+shows_the_same(const otx_keep *k, const otx_mapping *made, int32_t face)
+{
+    const otx_level *leaf = otx_surface_leaf(k->job->surface);
+    const otx_image *match =
+        &k->job->exemplars[otx_source_of(made, face)].match;
+
+    if (made->face_patch[face] != k->from->face_patch[face] ||
+        (k->loose && k->loose[face]))
+        return false;
+    for (int32_t c = leaf->face_first[face]; c < leaf->face_first[face + 1];
+         ++c)
+    {
+        const float *a = made->uvs + 2 * (size_t)c;
+        const float *b = k->from->uvs + 2 * (size_t)c;
+
+        if (hypot(
+                ((double)a[0] - (double)b[0]) * match->width,
+                ((double)a[1] - (double)b[1]) * match->height) > 1.0)
+            return false;
+    }
+    return true;
+}
+
+static double
+area_of(const otx_keep *k, int32_t face)
+{
+    const otx_level *leaf = otx_surface_leaf(k->job->surface);
+    const float *points = k->job->surface->points;
+    const int32_t first = leaf->face_first[face];
+    const otx_vec3 p = otx_vec3_load(points, leaf->face_verts[first]);
+    otx_vec3 sum = {0.0, 0.0, 0.0};
+
+    for (int32_t c = first + 1; c + 1 < leaf->face_first[face + 1]; ++c)
+        sum = otx_vec3_add(
+            sum,
+            otx_vec3_cross(
+                otx_vec3_sub(otx_vec3_load(points, leaf->face_verts[c]), p),
+                otx_vec3_sub(
+                    otx_vec3_load(points, leaf->face_verts[c + 1]), p)));
+    return 0.5 * otx_vec3_length(sum);
+}
+
+/* Share of the area that shows what it did. */
+static double
+share_of_the_same(const otx_keep *k, const otx_mapping *made)
+{
+    const otx_level *leaf = otx_surface_leaf(k->job->surface);
+    double all = 0.0, same = 0.0;
+
+    for (int32_t f = 0; f < leaf->face_count; ++f)
+    {
+        const double area = leaf->face_hole[f] ? 0.0 : area_of(k, f);
+
+        all += area;
+        same += shows_the_same(k, made, f) ? area : 0.0;
+    }
+    return all > 0.0 ? same / all : 1.0;
+}
+
 /* What each face shows is what it is asked for; NULL of one exemplar. */
 static otx_status
 demand_shown(const otx_keep *k, otx_run *run, const uint8_t **out)
@@ -196,6 +257,7 @@ keep_on(const otx_keep *k, otx_run *aside, otx_mapping *out, otx_keep_tally *t)
     job.surface = &surface;
     job.request = &request;
     OTX_TRY(otx_refit_run(&refit, &made));
+    t->texels = share_of_the_same(k, &made);
     made.lattice = NULL;
     if (!surface.density)
         made.surface = k->job->surface;

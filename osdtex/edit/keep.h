@@ -16,6 +16,8 @@ typedef struct otx_keep
     const otx_method *method; /* that made the mapping */
     const otx_mapping *from;  /* of the same leaf faces */
     const float *points;      /* [leaf vert_count * 3] as it was made for */
+    /* [leaf face_count] 1: may move though its shape has not changed; NULL. */
+    const uint8_t *loose;
 } otx_keep;
 
 /* Leaf faces by what became of them. */
@@ -24,6 +26,7 @@ typedef struct otx_keep_tally
     int32_t held;    /* as they were */
     int32_t moved;   /* relaxed */
     int32_t covered; /* anew, with what lies around them */
+    double texels;   /* share of the area that shows what it did, within one */
 } otx_keep_tally;
 
 /* Makes the mapping, in run->arena. What was made by texels and a lattice are

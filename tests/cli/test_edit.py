@@ -117,21 +117,19 @@ class Edit(ProgramTest):
             self.assertLessEqual(
                 len(faces), kept["moved"] + kept["covered"])
             self.assertEqual(
-                sum(kept.values()), len(before["face_patch"]))
+                kept["held"] + kept["moved"] + kept["covered"],
+                len(before["face_patch"]))
+            self.assertGreater(kept["texels"], 0.7)
         self.assertGreater(len(faces), 0)
 
     def test_what_cannot_be_kept_is_said(self):
         source = self.save()
         for more, words in (
                 (("--keep", source, "--scale", "3"), "has the scale"),
-                (("--keep", source, "--follow", "up"), "edit what comes"),
-                (("--keep", source, "--level", "1"), "is of level")):
+                (("--keep", source, "--follow", "up"), "edit what comes")):
             with self.subTest(more):
                 self.assert_error(
                     self.run_map(CAGE, EXEMPLAR, *more), 1, words)
-        self.assert_error(
-            self.run_map(CAGES / "sphere.obj", EXEMPLAR, "--keep", source,
-                         name="other.obj"), 1, "other faces")
 
     def test_numbers_too_large_are_refused(self):
         """The next edit has a number, too."""

@@ -27,7 +27,7 @@ push(const edits *e, double by, double radius)
 static otx_mapping
 keep(edits *e, const float *points, otx_keep_tally *tally)
 {
-    const otx_keep what = {&e->job, e->method, &e->mapping, points};
+    const otx_keep what = {&e->job, e->method, &e->mapping, points, NULL};
     otx_mapping out;
 
     if (otx_keep_run(&what, &out, tally) != OSDTEX_OK)
@@ -56,7 +56,7 @@ changes_are_relaxed_and_all_else_stays(void **state)
     edits *e = edits_open();
     const float *before = push(e, 0.06, 0.4);
     uint8_t *states = OTX_NEW(e->run->arena, uint8_t, e->leaf->face_count);
-    const otx_keep what = {&e->job, e->method, &e->mapping, before};
+    const otx_keep what = {&e->job, e->method, &e->mapping, before, NULL};
     otx_keep_tally tally;
     otx_mapping out;
 
