@@ -243,13 +243,16 @@ mark_held(editing *e)
     return OSDTEX_OK;
 }
 
-/* All of the area is made anew where something is asked of the texture itself;
- * where only another exemplar is, the rest of it may move. */
+/* All of the area is made anew where something is asked of the texture itself.
+ * Where only another piece or exemplar is, that is fitted to what lies around
+ * what is held, over which it may spread, and which may move: so the seam runs
+ * where both agree. Made anew up to its rim the area would have to fit in all
+ * around, and seams would get worse with every edit. */
 static otx_status
 set_states(editing *e)
 {
     const int32_t faces = otx_surface_leaf(e->from->surface)->face_count;
-    const bool whole = e->asks.direction || e->asks.scale || e->asks.redo;
+    const bool whole = e->asks.direction || e->asks.scale;
 
     for (int32_t f = 0; f < faces; ++f)
     {
@@ -257,13 +260,12 @@ set_states(editing *e)
             continue;
         if (whole)
             e->state[f] = OTX_REFIT_OPEN;
-        else if (e->asks.exemplar)
+        else if (e->asks.exemplar || e->asks.redo)
             e->state[f] = OTX_REFIT_FREE;
     }
-    if (!whole)
-        return OSDTEX_OK;
-    OTX_TRY(mark_rim(e));
-    return mark_held(e);
+    if (whole)
+        OTX_TRY(mark_rim(e));
+    return whole || e->asks.redo ? mark_held(e) : OSDTEX_OK;
 }
 
 /* ---- making it --------------------------------------------------------- */
@@ -316,7 +318,7 @@ refit(const editing *e, otx_mapping *out)
         .method = e->edit->method->fill ? e->edit->method : NULL,
         .from = e->from,
         .state = e->state,
-        .avoid = e->asks.redo,
+        .avoid = e->asks.redo ? e->asks.take : 0,
     };
 
     run.seed = otx_random_bits(

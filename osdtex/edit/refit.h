@@ -29,7 +29,7 @@ typedef struct otx_refit
                                * defaults */
     const otx_mapping *from;  /* of the same leaf faces */
     const uint8_t *state;     /* [leaf face_count] OTX_REFIT_... */
-    bool avoid; /* open faces are to show something else than they did */
+    int32_t avoid;            /* as otx_patch_given.avoid */
 } otx_refit;
 
 /* Makes the mapping, in run->arena: UVs and patches; guide and density are the

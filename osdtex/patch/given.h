@@ -29,10 +29,10 @@ typedef struct otx_patch_given
      * still have it at its `uvs`; -1 none. */
     const int32_t *before;
     const uint8_t *patch_exemplar; /* [patch_count] NULL: the first */
-    /* What faces to be covered showed, at `uvs`, is to be shown by them as
-     * little as can be, and another seed prefers other parts of the exemplar.
-     */
-    bool avoid;
+    /* Not 0: what faces to be covered showed, at `uvs`, is to be shown by them
+     * as little as can be. From 2 on another seed prefers other parts of the
+     * exemplar; 1 takes what fits best. */
+    int32_t avoid;
 } otx_patch_given;
 
 #endif

@@ -79,15 +79,16 @@ otx_supply_cell(const otx_supply *supply, otx_vec2 at)
            cell_of(at.x, match->width);
 }
 
-/* As if what is not to be shown again had been used a lot, and all else here
- * and there. */
+/* As if what is not to be shown again had been used a lot, and where others are
+ * to be tried all else here and there. */
 static void
 use_up(const otx_mosaic *m, int32_t k, float *usage)
 {
     const otx_patch_given *given = m->job.given;
     const otx_level *leaf = m->job.leaves.level;
 
-    for (int32_t i = 0; i < OTX_USAGE_CELLS * OTX_USAGE_CELLS; ++i)
+    for (int32_t i = 0;
+         given->avoid > 1 && i < OTX_USAGE_CELLS * OTX_USAGE_CELLS; ++i)
     {
         const int32_t block =
             i / OTX_USAGE_CELLS / AVOID_BLOCK * OTX_USAGE_CELLS +
