@@ -270,6 +270,19 @@ OSDTEX_API osdtex_status osdtex_mapping_edit(
     osdtex_context *context, const osdtex_mapping *mapping,
     const osdtex_edit_options *options, osdtex_mapping **out);
 
+/* The mapping on its cage in another pose: a mapping made at rest goes with an
+ * animated mesh, its UVs the same to the bit on every frame. What is measured,
+ * drawn and baked is the surface of the pose; a USD file of a bake has the rest
+ * positions as primvar Pref, and a saved mapping has them as its own.
+ *
+ *   cage  of the same faces in the same order
+ *
+ * The mapping that is given stays and may be destroyed first. ARGUMENT (other
+ * faces), and as osdtex_surface_refine. */
+OSDTEX_API osdtex_status osdtex_mapping_pose(
+    osdtex_context *context, const osdtex_mapping *mapping,
+    const osdtex_cage *cage, osdtex_mapping **out);
+
 typedef struct osdtex_write_options
 {
     size_t size;

@@ -121,6 +121,7 @@ bake(
     model = otx_mapping_handle_model_options(&mesh);
     how = look_options(&ours, path);
     how.mesh = ours.mesh ? &model : NULL;
+    how.rest = mapping->made_for;
     if (ours.preview_png)
         OTX_TRY(otx_call_colour(call, &how.colour));
     place = otx_bake_handle_layout(&ours);

@@ -67,7 +67,8 @@ gather(otx_run *run, const osdtex_mapping *mapping, otx_tensors *out)
 
     gather_wide(m, out);
     otx_tensors_add(
-        out, "cage_points", OTX_TENSOR_F32, cage->vert_count, 3, cage->points);
+        out, "cage_points", OTX_TENSOR_F32, cage->vert_count, 3,
+        mapping->made_for ? mapping->made_for : cage->points);
     otx_tensors_add(out, "uvs", OTX_TENSOR_F32, leaf->corner_count, 2, m->uvs);
     OTX_TRY(otx_saved_lookups_add_reals(run, m, out));
     OTX_TRY(otx_saved_decals_add_reals(run, m, out));

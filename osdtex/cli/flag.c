@@ -89,6 +89,10 @@ static const otx_flag flags[OTX_FLAG_COUNT] = {
          "it did shows what it did, what has moved is relaxed, or covered anew "
          "where it would be stretched too far; method, settings, scale "
          "and level are those of OLD"},
+    [OTX_FLAG_REST] =
+        {"rest", 0, OTX_FLAG_GROUP_MAIN, "REST.obj",
+         "the cage at rest: the mapping is made on it, and goes with its faces "
+         "to CAGE, a frame of an animation; UVs are the same on every frame"},
     [OTX_FLAG_REDO] =
         {"redo", 0, OTX_FLAG_GROUP_MAIN, "FACE|X,Y,Z,RADIUS",
          "not this texture here: cover a face of the cage (0-based), or what "

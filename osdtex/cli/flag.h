@@ -29,6 +29,7 @@ typedef enum otx_flag_id
     OTX_FLAG_FIRST_PATCH,
     OTX_FLAG_CONSTRAINTS,
     OTX_FLAG_KEEP,
+    OTX_FLAG_REST,
     OTX_FLAG_REDO,
     OTX_FLAG_REACH,
     OTX_FLAG_FOLLOW,

@@ -63,12 +63,13 @@ otx_guard_named(
     otx_path_list *out)
 {
     static const otx_flag_id files[] = {
-        OTX_FLAG_MASK, OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOR, OTX_FLAG_KEEP};
+        OTX_FLAG_MASK, OTX_FLAG_CONSTRAINTS, OTX_FLAG_FOR, OTX_FLAG_KEEP,
+        OTX_FLAG_REST};
     osdtex_status status = OSDTEX_OK;
 
     for (int i = 0; i < values->operand_count && status == OSDTEX_OK; ++i)
         status = add_file(context, deep, out, values->operands[i]);
-    for (int i = 0; i < 4 && status == OSDTEX_OK; ++i)
+    for (int i = 0; i < 5 && status == OSDTEX_OK; ++i)
         status = add_file(context, deep, out, values->text[files[i]]);
     if (status == OSDTEX_OK)
         status = add_file(context, true, out, values->text[OTX_FLAG_PLACE]);

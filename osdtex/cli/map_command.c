@@ -17,7 +17,8 @@ typedef struct job
     bool has_hash;
     char hash[OSDTEX_HASH_BYTES];
 
-    osdtex_cage *cage;
+    osdtex_cage *cage;  /* that is mapped: of --rest, else the operand */
+    osdtex_cage *frame; /* the operand where there is a --rest */
     osdtex_exemplar *exemplar;
     osdtex_forecast forecast;
     osdtex_surface *surface;
@@ -25,6 +26,16 @@ typedef struct job
     osdtex_mapping *mapping;
     osdtex_image *picture;
 } job;
+
+/* The file of the cage that is mapped. */
+static const char *
+cage_path(const job *j)
+{
+    const otx_flag_values *values = j->request.values;
+    const char *rest = values->text[OTX_FLAG_REST];
+
+    return rest ? rest : values->operands[0];
+}
 
 /* Cage and exemplars. */
 static osdtex_status
@@ -34,7 +45,11 @@ read_inputs(otx_session *session, job *j)
     osdtex_status status;
 
     status = osdtex_cage_read(
-        session->context, r->values->operands[0], &r->cage_options, &j->cage);
+        session->context, cage_path(j), &r->cage_options, &j->cage);
+    if (status == OSDTEX_OK && r->values->text[OTX_FLAG_REST])
+        status = osdtex_cage_read(
+            session->context, r->values->operands[0], &r->cage_options,
+            &j->frame);
     if (status == OSDTEX_OK)
         status = osdtex_exemplar_read(
             session->context, r->values->operands[1], &r->exemplar_options,
@@ -59,7 +74,7 @@ read_kept(otx_session *session, job *j)
 
     if (!path)
         return OSDTEX_OK;
-    options.cage = r->values->operands[0];
+    options.cage = cage_path(j);
     options.other_faces = 1;
     status = osdtex_mapping_read(session->context, path, &options, &j->keep);
     otx_session_lap(session, "old mapping read");
@@ -286,6 +301,19 @@ say_done(otx_session *session, const job *j)
         otx_session_say(session, "saved %s", r->save);
 }
 
+/* The mapping goes with its faces to the operand. */
+static osdtex_status
+pose(otx_session *session, job *j)
+{
+    osdtex_mapping *posed;
+    const osdtex_status status =
+        osdtex_mapping_pose(session->context, j->mapping, j->frame, &posed);
+
+    osdtex_mapping_destroy(j->mapping);
+    j->mapping = posed;
+    return status;
+}
+
 static osdtex_status
 map(otx_session *session, job *j)
 {
@@ -298,6 +326,8 @@ map(otx_session *session, job *j)
         status = osdtex_map(
             session->context, j->cage, j->exemplar, &j->request.map_options,
             &j->mapping);
+    if (status == OSDTEX_OK && j->frame)
+        status = pose(session, j);
     otx_session_lap(session, "mapped");
     return status;
 }
@@ -344,6 +374,7 @@ clean_up(job *j)
     otx_material_flags_destroy(&j->request.material);
     osdtex_exemplar_destroy(j->exemplar);
     osdtex_cage_destroy(j->cage);
+    osdtex_cage_destroy(j->frame);
     otx_saved_files_free(&j->values.inputs.saved);
 }
 

@@ -368,7 +368,8 @@ saved_stays(const otx_map_flags *r)
         OTX_FLAG_FVAR,        OTX_FLAG_MATCH_SPACE,
         OTX_FLAG_MATCH_IN,    OTX_FLAG_WRAP,
         OTX_FLAG_TILEABLE,    OTX_FLAG_EXEMPLAR_CLASS,
-        OTX_FLAG_ALONG,       OTX_FLAG_KEEP};
+        OTX_FLAG_ALONG,       OTX_FLAG_KEEP,
+        OTX_FLAG_REST};
 
     for (size_t i = 0;
          r->values->inputs.saved.path && i < sizeof decided / sizeof *decided;

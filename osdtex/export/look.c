@@ -534,6 +534,7 @@ write_usda(const writer *w)
         usda.materials = (otx_usda_subsets){
             listed.materials.count, listed.materials.text,
             listed.face_material};
+    usda.rest = w->options->rest;
     usda.texture = color_name(w);
     usda.materialx = name_of(w, ".mtlx");
     usda.maps = map_names(w);

@@ -32,6 +32,9 @@ typedef struct otx_look_options
     /* What is written of the refined mesh, together with the rest; its path and
      * set are given here. NULL: nothing. */
     const otx_model_options *mesh;
+    /* [cage vert_count * 3] points that the mapping was made for, for
+     * NAME.usda; NULL: those of its cage. */
+    const float *rest;
     int32_t comment_count; /* of the texts, without "# " */
     const char *const *comments;
 } otx_look_options;

@@ -128,6 +128,17 @@ write_extent(otx_text_out *out, const otx_usda *u)
     otx_text_out_char(out, '\n');
 }
 
+/* Where points are at rest, by the name that renderers look for. */
+static void
+write_rest(otx_text_out *out, const otx_usda *u)
+{
+    if (!u->rest)
+        return;
+    write_tuples(out, "point3f[] primvars:Pref", u->rest, u->vert_count, 3);
+    otx_text_out_string(
+        out, " (\n            interpolation = \"vertex\"\n        )\n");
+}
+
 /* Points are floats in USD, a translation may be double. */
 static void
 write_origin(otx_text_out *out, const otx_usda *u)
@@ -333,6 +344,7 @@ write_mesh(otx_run *run, otx_text_out *out, const otx_usda *u, const char *name)
         return false;
     write_tuples(out, "point3f[] points", u->points, u->vert_count, 3);
     otx_text_out_char(out, '\n');
+    write_rest(out, u);
     write_extent(out, u);
     write_origin(out, u);
     if (!write_sharp(run, out, u) || !write_holes(run, out, u) ||
@@ -408,6 +420,7 @@ otx_usda_write(
 
     where.file = title ? title : path;
     if (!is_finite(usda->points, 3 * (int64_t)usda->vert_count) ||
+        (usda->rest && !is_finite(usda->rest, 3 * (int64_t)usda->vert_count)) ||
         !is_finite(usda->uvs, 2 * (int64_t)usda->uv_count) ||
         !is_finite(usda->crease_sharpness, usda->crease_count) ||
         !is_finite(usda->corner_tag_sharpness, usda->corner_tag_count))

@@ -28,11 +28,12 @@ typedef struct otx_usda
     const char *triangles; /* "catmullClark", "smooth" */
 
     int32_t vert_count, face_count, corner_count, uv_count;
-    const float *points;         /* [vert_count * 3], relative to `origin` */
-    double origin[3];            /* the mesh is moved there; as a rule zero */
-    const int32_t *face_first;   /* [face_count + 1] */
-    const int32_t *face_verts;   /* [corner_count] */
-    const float *normals;        /* by face_normals; NULL none */
+    const float *points;       /* [vert_count * 3], relative to `origin` */
+    const float *rest;         /* likewise, as it was mapped; NULL: as it is */
+    double origin[3];          /* the mesh is moved there; as a rule zero */
+    const int32_t *face_first; /* [face_count + 1] */
+    const int32_t *face_verts; /* [corner_count] */
+    const float *normals;      /* by face_normals; NULL none */
     const int32_t *face_normals; /* [corner_count] */
     const float *uvs;            /* [uv_count * 2] */
     const int32_t *face_uvs;     /* [corner_count] */
