@@ -5,6 +5,7 @@
 #include "api/edit_call.h"
 #include "api/saved_about.h"
 #include "edit/apply.h"
+#include "edit/carry_decals.h"
 #include "edit/keep.h"
 #include "edit/project.h"
 #include "mapping/mapping_check.h"
@@ -189,11 +190,13 @@ take_over(
     return OSDTEX_OK;
 }
 
-/* The mapping on the new faces, as otx_keep_run wants it. */
+/* The mapping on the new faces, as otx_keep_run wants it.
+ *
+ *   decals  out: on the new faces, in the arena of the job's run */
 static otx_status
 project(
     otx_run *run, const osdtex_mapping *keep, const otx_surface *made_for,
-    otx_projected *out, otx_keep *what)
+    otx_projected *out, otx_keep *what, const otx_decals **decals)
 {
     otx_project ask = {
         &keep->mapping, made_for, keep->exemplars, what->job->surface};
@@ -201,6 +204,7 @@ project(
     OTX_TRY(otx_edit_check(run, what->method, &keep->mapping, keep->exemplars));
     OTX_TRY(shift_surface(run, ask.to->cage, &ask.made_for));
     OTX_TRY(otx_project_run(run, &ask, out));
+    OTX_TRY(otx_carry_decals(what->job->run, &ask, out, decals));
     what->from = &out->mapping;
     what->points = out->points;
     what->loose = out->loose;
@@ -213,14 +217,18 @@ keep_it(
     otx_run *run, const osdtex_mapping *keep, bool same, otx_keep *what,
     otx_mapping *out, otx_keep_tally *tally)
 {
+    const otx_decals *decals = keep->mapping.decals;
     const otx_surface *made_for;
     otx_projected projected;
 
     OTX_TRY(find_surface(run, keep, &made_for));
     what->points = made_for->points;
     if (!same)
-        OTX_TRY(project(run, keep, made_for, &projected, what));
-    return otx_keep_run(what, out, tally);
+        OTX_TRY(project(run, keep, made_for, &projected, what, &decals));
+    OTX_TRY(otx_keep_run(what, out, tally));
+    out->decals = decals;
+    /* Their pictures stay where they are. */
+    return decals ? otx_call_hold(what->job->run, keep->arena) : OSDTEX_OK;
 }
 
 static void

@@ -2,7 +2,6 @@
 #include "edit/project.h"
 
 #include "field/direction.h"
-#include "surface/closest.h"
 
 #include <string.h>
 
@@ -412,5 +411,7 @@ otx_project_run(otx_run *run, const otx_project *project, otx_projected *out)
     OTX_TRY(carry_guide(&c));
     OTX_TRY(carry_points(&c, &out->points));
     out->loose = c.loose;
+    out->verts = c.verts;
+    out->faces = c.faces;
     return OSDTEX_OK;
 }

@@ -8,6 +8,7 @@
 
 #include "exemplar/exemplar.h"
 #include "mapping/mapping.h"
+#include "surface/closest.h"
 
 typedef struct otx_project
 {
@@ -25,6 +26,9 @@ typedef struct otx_projected
     const float *points;  /* [leaf vert_count * 3] where vertices of `to` lie on
                            * the old surface; themselves where it is far */
     const uint8_t *loose; /* [leaf face_count] 1: reaches beyond its patch */
+    /* On the old surface: the vertices and the middles of faces. */
+    const otx_closest_place *verts; /* [leaf vert_count] */
+    const otx_closest_place *faces; /* [leaf face_count] */
 } otx_projected;
 
 /* Carries UVs, patches, directions, densities and places along a stack over, in
