@@ -191,6 +191,9 @@ check_demand(
     otx_run *run, const osdtex_map_options *options,
     const osdtex_mapping *handle, const uint8_t *demand, bool said)
 {
+    /* A mapping that is kept has them where it has them. */
+    if (options->keep)
+        return OSDTEX_OK;
     for (int32_t k = 1; k < handle->source_count; ++k)
     {
         const otx_where where = {handle->exemplars[k].source_path, 0, -1, -1};

@@ -151,7 +151,7 @@ count(const uint8_t *state, int32_t faces, otx_keep_tally *tally)
     }
 }
 
-/* Whether a face shows what it did, within a texel. */
+/* Whether a face shows within a texel what it was given. */
 static bool
 shows_the_same(const otx_keep *k, const otx_mapping *made, int32_t face)
 {
@@ -159,8 +159,7 @@ shows_the_same(const otx_keep *k, const otx_mapping *made, int32_t face)
     const otx_image *match =
         &k->job->exemplars[otx_source_of(made, face)].match;
 
-    if (made->face_patch[face] != k->from->face_patch[face] ||
-        (k->loose && k->loose[face]))
+    if (made->face_patch[face] != k->from->face_patch[face])
         return false;
     for (int32_t c = leaf->face_first[face]; c < leaf->face_first[face + 1];
          ++c)
@@ -195,6 +194,18 @@ area_of(const otx_keep *k, int32_t face)
     return 0.5 * otx_vec3_length(sum);
 }
 
+/* Share of a face that shows what it did: what lies beyond its patch does not,
+ * as far as corners tell. */
+static double
+share_of_face(const otx_keep *k, const otx_mapping *made, int32_t face)
+{
+    const int32_t size =
+        otx_level_face_size(otx_surface_leaf(k->job->surface), face);
+    const int32_t beyond = k->loose ? k->loose[face] : 0;
+
+    return shows_the_same(k, made, face) ? 1.0 - (double)beyond / size : 0.0;
+}
+
 /* Share of the area that shows what it did. */
 static double
 share_of_the_same(const otx_keep *k, const otx_mapping *made)
@@ -207,7 +218,7 @@ share_of_the_same(const otx_keep *k, const otx_mapping *made)
         const double area = leaf->face_hole[f] ? 0.0 : area_of(k, f);
 
         all += area;
-        same += shows_the_same(k, made, f) ? area : 0.0;
+        same += area > 0.0 ? area * share_of_face(k, made, f) : 0.0;
     }
     return all > 0.0 ? same / all : 1.0;
 }

@@ -16,7 +16,9 @@ typedef struct otx_keep
     const otx_method *method; /* that made the mapping */
     const otx_mapping *from;  /* of the same leaf faces */
     const float *points;      /* [leaf vert_count * 3] as it was made for */
-    /* [leaf face_count] 1: may move though its shape has not changed; NULL. */
+    /* [leaf face_count] how many corners of a face lie beyond its patch, where
+     * it shows what it did not: it may move though its shape has not changed.
+     * NULL: of none. */
     const uint8_t *loose;
 } otx_keep;
 

@@ -155,10 +155,12 @@ patch_at(const carrying *c, const otx_closest_place *place)
 }
 
 /* The UV that a patch has at a vertex, continued where the vertex lies beyond
- * it; false where it is too far. The same for all faces of the patch. */
+ * it, which is counted; false where it is too far. The same for all faces of
+ * the patch. */
 static bool
 find_uv(
-    const carrying *c, int32_t vert, int32_t patch, otx_vec2 *uv, bool *beyond)
+    const carrying *c, int32_t vert, int32_t patch, otx_vec2 *uv,
+    uint8_t *beyond)
 {
     const otx_closest_place *there = &c->verts[vert];
     const double edge = c->ask->to->mean_edge_length;
@@ -177,7 +179,7 @@ find_uv(
         return false;
     if (place.distance > there->distance + LOOSE * edge)
     {
-        *beyond = true;
+        *beyond += *beyond < UINT8_MAX;
         otx_closest_corners(c->ask->made_for, place.corners, triangle);
         otx_closest_below(ask.point, triangle, place.at);
     }
@@ -206,7 +208,7 @@ is_inside(const carrying *c, int32_t patch, otx_vec2 uv)
 static bool
 lay_face(carrying *c, int32_t face, int32_t patch)
 {
-    bool beyond = false;
+    uint8_t beyond = 0;
 
     for (int32_t i = c->leaf->face_first[face];
          i < c->leaf->face_first[face + 1]; ++i)

@@ -25,7 +25,8 @@ typedef struct otx_projected
     otx_mapping mapping;
     const float *points;  /* [leaf vert_count * 3] where vertices of `to` lie on
                            * the old surface; themselves where it is far */
-    const uint8_t *loose; /* [leaf face_count] 1: reaches beyond its patch */
+    const uint8_t *loose; /* [leaf face_count] how many corners of a face lie
+                           * beyond its patch */
     /* On the old surface: the vertices and the middles of faces. */
     const otx_closest_place *verts; /* [leaf vert_count] */
     const otx_closest_place *faces; /* [leaf face_count] */

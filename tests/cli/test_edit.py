@@ -5,29 +5,15 @@ made again from its constraints.
     test_edit.py OSDTEX
 """
 
-import array
 import json
 import unittest
 
 from program import CAGES, EXEMPLARS, ProgramTest, main
+from saved import read_all as read
 
 CAGE = CAGES / "torus.obj"
 EXEMPLAR = EXEMPLARS / "grass_tile.png"
 HOW = ("--level", "2", "--scale", "1.5", "--exemplar-class", "directional")
-TYPES = {"F64": "d", "I64": "q", "F32": "f", "I32": "i", "U8": "B"}
-
-
-def read(path):
-    data = path.read_bytes()
-    begin = 8 + int.from_bytes(data[:8], "little")
-    header = json.loads(data[8:begin])
-    about = json.loads(header.pop("__metadata__")["osdtex"])
-    arrays = {}
-    for name, a in header.items():
-        arrays[name] = array.array(TYPES[a["dtype"]])
-        first, end = a["data_offsets"]
-        arrays[name].frombytes(data[begin + first:begin + end])
-    return about, arrays
 
 
 def changed(a, b):

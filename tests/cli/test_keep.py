@@ -8,6 +8,7 @@ import json
 
 from program import CAGES, EXEMPLARS, SHARED, ProgramTest, main
 from remodel import remodel
+from saved import read
 
 EXEMPLAR = EXEMPLARS / "pebbles_tile.png"
 
@@ -59,6 +60,41 @@ class Keep(ProgramTest):
         old = self.save(CAGES / "torus.obj", "--level", "2")
         kept = self.map(CAGES / "sphere.obj", "--keep", old)["mapping"]["kept"]
         self.assertLess(kept["texels"], 0.2)
+
+    def test_placed_pictures_stay(self):
+        cage = CAGES / "creature.obj"
+        asked = self.folder / "p.json"
+        asked.write_text(json.dumps({"placed": [
+            {"picture": str(EXEMPLARS / "leaves_cut.png"), "face": f,
+             "width": 0.3} for f in (3, 40)]}))
+        old = self.save(cage, "--level", "2", "--place", asked)
+        made = self.folder / "made.obj"
+        remodel("loop", cage, made)
+        saved = self.folder / "new.osdtex"
+        self.map(made, "--keep", old, "--save", saved)
+        before, after = read(old), read(saved)
+        self.assertEqual(after["decal_picture"], before["decal_picture"])
+        self.assertEqual(set(after["decal_number"]), {0, 1})
+        self.assertGreater(
+            len(after["decal_number"]), 0.8 * len(before["decal_number"]))
+        self.assert_exit(self.run_program(
+            "render", "--from", saved, "-o", self.folder / "p.png", "--size",
+            "32x32"), 0)
+
+    def test_several_exemplars(self):
+        cage = CAGES / "torus.obj"
+        rules = self.folder / "c.json"
+        rules.write_text(json.dumps({"constraints": [
+            {"face": f, "exemplar": 1 + f // 4 % 2} for f in range(0, 32, 4)]}))
+        also = ("--also", EXEMPLARS / "gravel_tile.png")
+        old = self.save(cage, "--level", "2", *also, "--constraints", rules)
+        made = self.folder / "made.obj"
+        remodel("loop", cage, made)
+        saved = self.folder / "new.osdtex"
+        self.map(made, "--keep", old, *also, "--save", saved)
+        shown = read(saved)
+        self.assertEqual(
+            {shown["patch_exemplar"][p] for p in shown["face_patch"]}, {0, 1})
 
     def test_twice_the_same_for_any_number_of_threads(self):
         cage = CAGES / "creature.obj"
