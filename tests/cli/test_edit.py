@@ -61,6 +61,20 @@ class Edit(ProgramTest):
                           "2", name="other.osdtex")
         self.assertTrue(changed(after, read(other)[1]))
 
+    def seam_energy(self, *more):
+        report = self.folder / "r.json"
+        self.assert_exit(self.run_map(
+            CAGE, EXEMPLARS / "pebbles_tile.png", "--level", "3", "--replace",
+            "--json-report", report, *more), 0)
+        return json.loads(report.read_text())["seams"]["energy"]
+
+    def test_six_redos_leave_seams_about_as_good(self):
+        redos = [{"face": f, "redo": 1, "edit": k + 1}
+                 for k, f in enumerate((0, 9, 18, 27, 4, 13))]
+        self.assertLess(
+            self.seam_energy("--constraints", self.constraints(*redos)),
+            1.3 * self.seam_energy())
+
     def test_edits_one_by_one_are_those_of_one_file(self):
         """What a person does bit by bit, `osdtex map --constraints` makes at
         once, byte for byte."""
