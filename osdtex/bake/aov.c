@@ -153,9 +153,9 @@ static bool
 is_at_seam(const otx_block *block, int32_t x, int32_t y)
 {
     const size_t i = otx_block_index(block, x, y);
-    const int32_t rim = block->near_rim.edges[i];
+    const int32_t rim = block->near.rim.edges[i];
 
-    return rim >= 0 && block->near_rim.distance[i] < 1.0f &&
+    return rim >= 0 && block->near.rim.distance[i] < 1.0f &&
            otx_mip_is_seam(
                block->source->layout, block->source->mapping->face_patch,
                &block->mip->rims[rim]);

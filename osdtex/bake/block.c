@@ -24,12 +24,13 @@ place(otx_block *b, int32_t x, int32_t y)
 
     b->width = otx_mip_block_size(mip, x);
     b->height = otx_mip_block_size(mip, y);
-    b->left = left > 0 ? apron : 0;
-    b->below = top > b->height ? apron : 0;
+    b->apron.left = left > 0 ? apron : 0;
+    b->apron.below = top > b->height ? apron : 0;
     b->raster = (otx_raster){
-        .origin = {left - b->left, top - b->height - b->below},
-        .width = b->width + b->left + (left + b->width < mip->side ? apron : 0),
-        .height = b->height + b->below + (y > 0 ? apron : 0),
+        .origin = {left - b->apron.left, top - b->height - b->apron.below},
+        .width = b->width + b->apron.left +
+                 (left + b->width < mip->side ? apron : 0),
+        .height = b->height + b->apron.below + (y > 0 ? apron : 0),
         .n = samples_of(mip->level),
     };
 }
@@ -42,8 +43,8 @@ allocate(otx_block *b, otx_arena *scratch)
         b->pieces[i].id = -1;
     return b->pieces && otx_beyond_begin(scratch, &b->beyond) &&
            otx_raster_begin(scratch, &b->raster) &&
-           otx_raster_near_begin(scratch, &b->raster, &b->near_rim) &&
-           otx_raster_near_begin(scratch, &b->raster, &b->near_seam);
+           otx_raster_near_begin(scratch, &b->raster, &b->near.rim) &&
+           otx_raster_near_begin(scratch, &b->raster, &b->near.seam);
 }
 
 static void
@@ -114,9 +115,9 @@ otx_block_draw(
         return false;
     draw_faces(out, index);
     draw_edges(
-        out, mip->rims, &mip->near_rims, index, mip->gutter, &out->near_rim);
+        out, mip->rims, &mip->near_rims, index, mip->gutter, &out->near.rim);
     draw_edges(
-        out, mip->seams, &mip->near_seams, index, mip->blend, &out->near_seam);
+        out, mip->seams, &mip->near_seams, index, mip->blend, &out->near.seam);
     return true;
 }
 

@@ -19,6 +19,18 @@ typedef struct otx_block_rims
     int32_t far; /* one where none is near */
 } otx_block_rims;
 
+/* Texels before the block's first; 0 at the picture's border. */
+typedef struct otx_block_apron
+{
+    int32_t left, below;
+} otx_block_apron;
+
+/* What is nearest to each texel. */
+typedef struct otx_block_near
+{
+    otx_raster_near rim, seam;
+} otx_block_near;
+
 /* The texels of a mip level's block, with an apron of texels around them where
  * they are fitted to lookups. */
 typedef struct otx_block
@@ -28,9 +40,9 @@ typedef struct otx_block
     int32_t channels;             /* of both, those of `maps` behind */
     const otx_mip *mip;
     int32_t width, height; /* without the apron */
-    int32_t left, below;   /* of the apron; 0 at the picture's border */
-    otx_raster raster;     /* with it */
-    otx_raster_near near_rim, near_seam;
+    otx_block_apron apron;
+    otx_raster raster; /* with it */
+    otx_block_near near;
     otx_mip_facet *pieces; /* [OTX_BLOCK_PIECES], by hash of their id */
     otx_beyond beyond;     /* what they go on to */
     otx_block_rims rims;

@@ -51,7 +51,7 @@ otx_crossfade_inside(
     otx_block *block, int32_t x, int32_t y, int32_t first, float *color)
 {
     const size_t i = otx_block_index(block, x, y);
-    const int32_t seam = block->near_seam.edges[i];
+    const int32_t seam = block->near.seam.edges[i];
 
     if (seam < 0)
         return;
@@ -59,7 +59,7 @@ otx_crossfade_inside(
     const int32_t face =
         otx_mip_facet_face(otx_block_sample(block, x, y, first));
 
-    mix(block, &block->mip->seams[seam], block->near_seam.distance[i],
+    mix(block, &block->mip->seams[seam], block->near.seam.distance[i],
         block->source->mapping->face_patch[face],
         otx_raster_texel(&block->raster, x, y), color);
 }
@@ -70,13 +70,13 @@ otx_crossfade_beyond(otx_block *block, int32_t x, int32_t y, float *color)
     const size_t i = otx_block_index(block, x, y);
     const otx_layout *layout = block->source->layout;
     const int32_t *patches = block->source->mapping->face_patch;
-    const otx_mip_rim *rim = &block->mip->rims[block->near_rim.edges[i]];
+    const otx_mip_rim *rim = &block->mip->rims[block->near.rim.edges[i]];
 
     if (block->mip->seam_count == 0 || !otx_mip_is_seam(layout, patches, rim))
         return;
 
     const int32_t other = otx_layout_across(layout, rim->face, rim->edge);
 
-    mix(block, rim, block->near_rim.distance[i], patches[other],
+    mix(block, rim, block->near.rim.distance[i], patches[other],
         otx_raster_texel(&block->raster, x, y), color);
 }

@@ -65,8 +65,8 @@ rim_of_cell(const otx_block *block, int32_t x, int32_t y, otx_gutter *found)
         CELL = OTX_GUTTER_CELL
     };
     const bool is_whole = block->mip->level == 0;
-    const int32_t left = (is_whole ? 0 : block->left) - CELL;
-    const int32_t below = (is_whole ? 0 : block->below) - CELL;
+    const int32_t left = (is_whole ? 0 : block->apron.left) - CELL;
+    const int32_t below = (is_whole ? 0 : block->apron.below) - CELL;
     const int32_t i = (x - left) / CELL, j = (y - below) / CELL;
     int32_t *rim = &found->rims[j * OTX_GUTTER_CELLS + i];
 
@@ -92,7 +92,7 @@ find_place(otx_block *block, int32_t x, int32_t y, otx_gutter *found)
 {
     const otx_vec2 at = otx_raster_texel(&block->raster, x, y);
     const otx_mip_rim *rims = block->mip->rims;
-    const int32_t near = block->near_rim.edges[otx_block_index(block, x, y)];
+    const int32_t near = block->near.rim.edges[otx_block_index(block, x, y)];
     const int32_t far = near >= 0 ? -1 : rim_of_cell(block, x, y, found);
 
     if (near >= 0)

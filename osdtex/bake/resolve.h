@@ -8,11 +8,6 @@
 
 #include "bake/block.h"
 
-/* The chart with most samples in a texel, of equal ones the first, and the
- * first sample that has it; -1 where no face reaches. */
-int32_t
-otx_resolve_owner(const otx_block *block, int32_t x, int32_t y, int32_t *first);
-
 /* What a texel shows: all channels of the block.
  *
  *   chart  its owner

@@ -6,6 +6,7 @@
 #include "bake/texel.h"
 
 #include "bake/aov.h"
+#include "bake/chart_owner.h"
 #include "bake/crossfade.h"
 #include "bake/gutter.h"
 #include "bake/resolve.h"
@@ -34,7 +35,7 @@ resolve(picture *p, int32_t x, int32_t y, float *out)
 {
     otx_block *block = &p->block;
     int32_t first;
-    const int32_t chart = otx_resolve_owner(block, x, y, &first);
+    const int32_t chart = otx_chart_owner(block, x, y, &first);
 
     p->owners[otx_block_index(block, x, y)] = chart;
     if (chart < 0)
@@ -81,12 +82,12 @@ static bool
 is_needed(const otx_block *block, int32_t x, int32_t y)
 {
     const size_t i = otx_block_index(block, x, y);
-    const int32_t dx = x - block->left, dy = y - block->below;
+    const int32_t dx = x - block->apron.left, dy = y - block->apron.below;
 
     return (dx >= -1 && dx <= block->width && dy >= -1 &&
             dy <= block->height) ||
-           (block->near_rim.edges[i] >= 0 &&
-            block->near_rim.distance[i] < RIM_APRON_SQ);
+           (block->near.rim.edges[i] >= 0 &&
+            block->near.rim.distance[i] < RIM_APRON_SQ);
 }
 
 static void
@@ -115,8 +116,8 @@ fit_to_lookups(const picture *p, float *pixels)
         .textures = source->textures,
         .mip = block->mip,
         .raster = &block->raster,
-        .near_rim = &block->near_rim,
-        .near_seam = &block->near_seam,
+        .near_rim = &block->near.rim,
+        .near_seam = &block->near.seam,
         .grid = &grid,
         .low = source->low,
         .high = source->high,
@@ -125,8 +126,10 @@ fit_to_lookups(const picture *p, float *pixels)
 
     otx_sharpen_texels(&grid, 0, 0, width, height, p->sharp);
     grid.pixels = p->sharp;
-    for (int32_t y = block->below; y < block->below + block->height; ++y)
-        for (int32_t x = block->left; x < block->left + block->width; ++x)
+    for (int32_t y = block->apron.below; y < block->apron.below + block->height;
+         ++y)
+        for (int32_t x = block->apron.left;
+             x < block->apron.left + block->width; ++x)
         {
             otx_seam_fit_texel(&fit, x, y, &edge, pixels);
             pixels += source->channels;
@@ -191,8 +194,8 @@ weld_heights(const otx_map_source *maps, const picture *p, otx_arena *scratch)
         .textures = maps->heights,
         .mip = block->mip,
         .raster = &block->raster,
-        .near_rim = &block->near_rim,
-        .near_seam = &block->near_seam,
+        .near_rim = &block->near.rim,
+        .near_seam = &block->near.seam,
         .grid = &grid,
         .welds = true,
     };
@@ -202,8 +205,10 @@ weld_heights(const otx_map_source *maps, const picture *p, otx_arena *scratch)
     show.carry = &maps->height_carry;
     for (size_t i = 0; i < texels; ++i)
         heights[i] = from[i * (size_t)channels];
-    for (int32_t y = block->below; y < block->below + block->height; ++y)
-        for (int32_t x = block->left; x < block->left + block->width; ++x)
+    for (int32_t y = block->apron.below; y < block->apron.below + block->height;
+         ++y)
+        for (int32_t x = block->apron.left;
+             x < block->apron.left + block->width; ++x)
             otx_seam_fit_texel(
                 &fit, x, y, &edge,
                 from + otx_block_index(block, x, y) * (size_t)channels);
@@ -223,7 +228,7 @@ finish_maps(
     for (int32_t y = 0; y < block->height; ++y)
         for (int32_t x = 0; x < block->width; ++x)
         {
-            const int32_t i = x + block->left, j = y + block->below;
+            const int32_t i = x + block->apron.left, j = y + block->apron.below;
 
             hand_out(
                 maps,
@@ -245,7 +250,8 @@ copy_inside(const picture *p, float *pixels)
     for (int32_t y = 0; y < block->height; ++y)
         memcpy(
             pixels + (size_t)y * row,
-            p->pixels + otx_block_index(block, block->left, y + block->below) *
+            p->pixels + otx_block_index(
+                            block, block->apron.left, y + block->apron.below) *
                             channels,
             row * sizeof *pixels);
 }

@@ -2,6 +2,7 @@
  * shows, and no others. */
 #include "unit/bake/noise.h"
 
+#include "bake/chart_owner.h"
 #include "bake/resolve.h"
 #include "bake/seam_fit.h"
 #include "image/view.h"
@@ -77,7 +78,7 @@ fit_from(trial *t, float value)
     int32_t first;
 
     for (int32_t i = 0; i < SIDE * SIDE; ++i)
-        t->owners[i] = otx_resolve_owner(&t->block, i % SIDE, i / SIDE, &first);
+        t->owners[i] = otx_chart_owner(&t->block, i % SIDE, i / SIDE, &first);
     for (int32_t i = 0; i < SIDE * SIDE * t->grid.channels; ++i)
         t->pixels[i] = value;
     for (int32_t y = 0; y < SIDE; ++y)
@@ -97,8 +98,8 @@ set_fit(trial *t, int32_t channels)
         .textures = t->bake.source.textures,
         .mip = &t->mip,
         .raster = &t->block.raster,
-        .near_rim = &t->block.near_rim,
-        .near_seam = &t->block.near_seam,
+        .near_rim = &t->block.near.rim,
+        .near_seam = &t->block.near.seam,
         .grid = &t->grid,
         .low = t->bake.source.low,
         .high = t->bake.source.high};
@@ -107,8 +108,8 @@ set_fit(trial *t, int32_t channels)
 static bool
 is_near(const trial *t, int32_t texel)
 {
-    return t->block.near_rim.edges[texel] >= 0 &&
-           t->block.near_rim.distance[texel] < 1.0f;
+    return t->block.near.rim.edges[texel] >= 0 &&
+           t->block.near.rim.distance[texel] < 1.0f;
 }
 
 static void
@@ -268,7 +269,7 @@ what_is_torn_stays_torn(void **state)
     fit_from(t, 0.5f);
     for (int32_t i = 0; i < SIDE * SIDE; ++i)
     {
-        const int32_t rim = t->block.near_rim.edges[i];
+        const int32_t rim = t->block.near.rim.edges[i];
         const otx_mip_rim *r;
         int32_t other;
 
