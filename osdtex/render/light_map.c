@@ -2,7 +2,6 @@
 #include "render/light_map.h"
 
 #include "base/random.h"
-#include "render/quick.h"
 
 #include <string.h>
 
@@ -70,7 +69,7 @@ probe_pixel(const otx_shade *shade, int32_t x, int32_t y, otx_light_texel *out)
     otx_hit hit;
 
     *out = (otx_light_texel){.depth = 0.0f};
-    if (!otx_quick_trace(shade, &sample, &hit))
+    if (!otx_shade_trace(shade, &sample, &hit))
         return;
     normal = otx_shade_normal(shade->scene, &hit);
     side = otx_vec3_dot(hit.normal, sample.direction) > 0.0 ? -1.0 : 1.0;

@@ -63,32 +63,6 @@ otx_quick_place(int32_t n, int32_t number, uint64_t pixel)
     return (otx_vec2){(number % n + jx) / n, (number / n + jy) / n};
 }
 
-/* The nearest that a ray from far away need begin to meet the unit ball; the
- * rest of the way would cost the floats of the ray their precision. */
-static otx_vec3
-ray_origin(otx_vec3 eye, otx_vec3 direction)
-{
-    const double skip = -otx_vec3_dot(eye, direction) - 1.5;
-
-    return skip > 0.0 ? otx_vec3_mix(1.0, eye, skip, direction) : eye;
-}
-
-bool
-otx_quick_trace(const otx_shade *shade, otx_shade_sample *sample, otx_hit *out)
-{
-    const otx_camera_frame *frame = &shade->frame;
-    otx_vec3 from;
-
-    sample->direction = otx_camera_direction(frame, sample->at.x, sample->at.y);
-    from = otx_vec3_mix(
-        1.0, frame->eye,
-        frame->near / otx_vec3_dot(sample->direction, frame->forward),
-        sample->direction);
-    return otx_tracer_hit(
-        shade->tracer, ray_origin(from, sample->direction), sample->direction,
-        out);
-}
-
 /* Traces them; the number of those that meet the model. */
 static int32_t
 trace_all(
@@ -104,7 +78,7 @@ trace_all(
 
         out->samples[i] = (otx_shade_sample){
             .at = {x + place.x, y + place.y}, .number = i, .pixel = pixel};
-        met += otx_quick_trace(&quick->shade, &out->samples[i], &out->hits[i]);
+        met += otx_shade_trace(&quick->shade, &out->samples[i], &out->hits[i]);
         /* Some do and some do not. */
         if (met != 0 && met != i + 1)
             return -1;

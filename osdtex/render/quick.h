@@ -33,10 +33,6 @@ void otx_quick_prepare(
 /* A place in square `number` of a pixel's n x n, jittered by number. */
 otx_vec2 otx_quick_place(int32_t n, int32_t number, uint64_t pixel);
 
-/* The first surface on a sample's way; sets its direction. */
-bool
-otx_quick_trace(const otx_shade *shade, otx_shade_sample *sample, otx_hit *out);
-
 typedef enum otx_quick_result
 {
     OTX_QUICK_MIXED, /* take all samples */

@@ -126,7 +126,7 @@ trace_sample(const otx_shade *shade, otx_shade_sample *sample, float rgb[3])
 {
     otx_hit hit;
 
-    if (!otx_quick_trace(shade, sample, &hit))
+    if (!otx_shade_trace(shade, sample, &hit))
         return false;
     otx_shade_hit(shade, &hit, sample, rgb);
     return true;

@@ -610,3 +610,29 @@ otx_shade_hit(
     for (int32_t c = 0; c < 3; ++c)
         rgb[c] = (float)(light * rgb[c]);
 }
+
+/* The nearest that a ray from far away need begin to meet the unit ball; the
+ * rest of the way would cost the floats of the ray their precision. */
+static otx_vec3
+ray_origin(otx_vec3 eye, otx_vec3 direction)
+{
+    const double skip = -otx_vec3_dot(eye, direction) - 1.5;
+
+    return skip > 0.0 ? otx_vec3_mix(1.0, eye, skip, direction) : eye;
+}
+
+bool
+otx_shade_trace(const otx_shade *shade, otx_shade_sample *sample, otx_hit *out)
+{
+    const otx_camera_frame *frame = &shade->frame;
+    otx_vec3 from;
+
+    sample->direction = otx_camera_direction(frame, sample->at.x, sample->at.y);
+    from = otx_vec3_mix(
+        1.0, frame->eye,
+        frame->near / otx_vec3_dot(sample->direction, frame->forward),
+        sample->direction);
+    return otx_tracer_hit(
+        shade->tracer, ray_origin(from, sample->direction), sample->direction,
+        out);
+}

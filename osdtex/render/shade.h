@@ -54,4 +54,8 @@ void otx_shade_hit(
     const otx_shade *shade, const otx_hit *hit, const otx_shade_sample *sample,
     float rgb[3]);
 
+/* The first surface on a sample's way; sets its direction. */
+bool
+otx_shade_trace(const otx_shade *shade, otx_shade_sample *sample, otx_hit *out);
+
 #endif

@@ -50,7 +50,7 @@ the_model_lies_in_covered_blocks(void **state)
                 otx_hit hit;
 
                 covered += otx_light_map_covers(&map, x, y);
-                if (!otx_quick_trace(&shade, &sample, &hit))
+                if (!otx_shade_trace(&shade, &sample, &hit))
                     continue;
                 ++met;
                 assert_true(otx_light_map_covers(&map, x, y));
