@@ -7,8 +7,6 @@
 #include "file/tiff_write.h"
 #include "image/pyramid.h"
 
-#include <string.h>
-
 static const char STAGE[] = "export";
 
 otx_exr_options
@@ -42,47 +40,6 @@ bool
 otx_companion_files_is_exr(otx_texture_type type, otx_companion_kind kind)
 {
     return type_of(type, kind) <= OTX_TEXTURE_EXR;
-}
-
-const char *
-otx_companion_files_path(
-    otx_run *run, const char *color, otx_texture_type type,
-    otx_companion_kind kind)
-{
-    const char *name = otx_companion_name(kind);
-    const size_t base = (size_t)(strrchr(color, '.') - color);
-    const size_t bytes = base + strlen(name) + sizeof "_.exr";
-    char *path = OTX_NEW(run->arena, char, bytes);
-
-    if (!path)
-        return NULL;
-    memcpy(path, color, base);
-    path[base] = '_';
-    strcpy(path + base + 1, name);
-    strcat(path + base, otx_companion_files_extension(type, kind));
-    return path;
-}
-
-otx_data_maps
-otx_companion_files_names(
-    otx_run *run, const char *name, otx_texture_type type,
-    const otx_companions *companions)
-{
-    const char *names[OTX_COMPANION_COUNT];
-
-    for (int32_t k = 0; k < OTX_COMPANION_COUNT; ++k)
-        names[k] = companions->maps[k].is_there
-                       ? otx_companion_files_path(
-                             run, name, type, (otx_companion_kind)k)
-                       : NULL;
-    return (otx_data_maps){
-        .normal = names[OTX_COMPANION_NORMAL],
-        .normal_y_down = companions->written_y_down,
-        .roughness = names[OTX_COMPANION_ROUGHNESS],
-        .metalness = names[OTX_COMPANION_METALNESS],
-        .height = names[OTX_COMPANION_HEIGHT],
-        .occlusion = names[OTX_COMPANION_OCCLUSION],
-    };
 }
 
 /* One map by itself. */
@@ -202,39 +159,4 @@ otx_companion_files_write(
         otx_arena_release(run->scratch, mark);
     }
     return OSDTEX_OK;
-}
-
-/* Faces that are neither quads nor triangles. */
-static int32_t
-count_others(const otx_level *cage)
-{
-    int32_t count = 0;
-
-    for (int32_t f = 0; f < cage->face_count; ++f)
-        count += otx_level_face_size(cage, f) > 4;
-    return count;
-}
-
-void
-otx_companion_files_say_gaps(
-    otx_run *run, bool in_blocks, const otx_level *cage, const char *height)
-{
-    const int32_t others = height && in_blocks ? count_others(cage) : 0;
-
-    if (!height)
-        return;
-    if (!in_blocks)
-        otx_note(
-            run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
-            "on the cage's own UVs and on charts heights cannot be the same "
-            "from both sides of a cut everywhere, so what they displace may "
-            "open there; an atlas of quads and triangles has no such gaps");
-    else if (others > 0)
-        otx_note(
-            run, OSDTEX_SEVERITY_INFO, STAGE, OTX_NOWHERE,
-            "%d of %d faces have more than four corners: at their edges in the "
-            "atlas heights cannot be the same from both sides everywhere, so "
-            "what they displace may open there; quads and triangles have no "
-            "such gaps",
-            (int)others, (int)cage->face_count);
 }

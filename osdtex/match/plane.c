@@ -107,17 +107,16 @@ fill_component(const otx_plane *plane, int32_t channel, float *rows)
         for (int32_t y = 0; y < plane->fft_height; ++y)
             for (int32_t x = 0; x < plane->fft_width; ++x)
                 rows[(size_t)y * stride + (size_t)x] = (float)plane->beyond;
+    rows += (size_t)plane->pad_y * stride + (size_t)plane->pad_x;
     for (int32_t y = 0; y < plane->height; ++y)
         for (int32_t x = 0; x < plane->width; ++x)
         {
             const float *p = otx_plane_at(plane, x, y);
 
-            rows
-                [(size_t)(y + plane->pad_y) * stride +
-                 (size_t)(x + plane->pad_x)] =
-                    channel < plane->channels
-                        ? p[channel]
-                        : p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3];
+            rows[(size_t)y * stride + (size_t)x] =
+                channel < plane->channels
+                    ? p[channel]
+                    : p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3];
         }
 }
 
