@@ -2,7 +2,7 @@
 #include "export/paste_model.h"
 #include "file/mtl.h"
 #include "file/obj.h"
-#include "file/picture.h"
+#include "file/picture_read.h"
 #include "folder.h"
 #include "strip_pastes.h"
 
