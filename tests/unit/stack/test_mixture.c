@@ -51,7 +51,11 @@ contrast_is_kept(void **state)
     paint(run, 1, 0.2, 0.4, &a);
     paint(run, 2, 0.5, 0.9, &b);
     assert_int_equal(
-        otx_mixture_make(run, &(otx_mixture){&a, &b, same, same, 0.25}, &out),
+        otx_mixture_make(
+            run,
+            &(otx_mixture){
+                &a, &b, .from_texels = same, .to_texels = same, .weight = 0.25},
+            &out),
         OSDTEX_OK);
     for (int32_t c = 0; c < 3; ++c)
     {
@@ -79,7 +83,8 @@ an_end_is_a_copy(void **state)
     paint(run, 1, 0.0, 1.0, &a);
     paint(run, 2, 0.0, 1.0, &b);
     assert_int_equal(
-        otx_mixture_make(run, &(otx_mixture){&a, &b, turned, NULL, 0.0}, &out),
+        otx_mixture_make(
+            run, &(otx_mixture){&a, &b, .from_texels = turned}, &out),
         OSDTEX_OK);
     for (int32_t i = 0; i < TEXELS; ++i)
         assert_memory_equal(
