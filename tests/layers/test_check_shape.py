@@ -85,7 +85,7 @@ class Tree(unittest.TestCase):
         self.assertEqual(self.check(), "")
 
     def test_parts_that_call_each_other(self):
-        for i in range(5):
+        for i in range(2):
             for a, b in ((f"a{i}", f"b{i}"), (f"b{i}", f"a{i}")):
                 self.put(f"osdtex/base/{a}.h",
                          f"typedef int otx_{a};\nint otx_{a}_do(void);\n")
