@@ -25,8 +25,10 @@ otx_spares_create(otx_mosaic *m)
     const int32_t count = m->job.leaves.level->face_count;
     bool ends = false;
 
+    /* Of those that are asked for anywhere. */
     for (int32_t k = 0; k < m->job.exemplar_count; ++k)
-        ends |= !m->job.exemplars[k].wrap_x || !m->job.exemplars[k].wrap_y;
+        ends |= m->supplies.items[k].area > 0.0 &&
+                !(m->job.exemplars[k].wrap_x && m->job.exemplars[k].wrap_y);
     if (!ends || s->mode != OTX_PATCH_BEST || s->cut != OTX_PATCH_ON ||
         s->relax == OTX_PATCH_RELAX_LOOP)
         return OSDTEX_OK;
